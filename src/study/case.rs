@@ -15,7 +15,7 @@ use crate::verdict::Limits;
 /// A plan made ready to run.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// File and text of the plan; empty where the program made the plan.
+    /// File and text of the plan; empty if the program made the plan.
     pub source: PlanSource,
     /// Values of the plan.
     pub plan: Plan,
@@ -27,7 +27,7 @@ pub struct Case {
     pub limits: Limits,
     /// Filled by [`Case::fingerprint`].
     pub(in crate::study) fingerprint: OnceLock<Fingerprint>,
-    /// Filled where the tires have no diameter.
+    /// Filled if the tires have no diameter.
     pub(in crate::study) tires_by_place: OnceLock<TiresByPlace>,
 }
 
@@ -62,7 +62,7 @@ impl Case {
         Self { source, plan, model, shots, limits, fingerprint, tires_by_place }
     }
 
-    /// The same case, of a plan with this file and text.
+    /// The same case, with this file and text of its plan.
     pub fn with_source(self, source: PlanSource) -> Self {
         Self { source, ..self }
     }
@@ -79,30 +79,30 @@ impl Case {
         }
     }
 
-    /// The case, followed for `duration_s` [s]; `None`: until all is at rest.
+    /// The case with runs of `duration_s` [s]; `None` means until everything is at rest.
     pub(in crate::study) fn with_duration(&self, duration_s: Option<f64>) -> Self {
         let mut case = Self { fingerprint: OnceLock::new(), ..self.clone() };
         case.plan.simulation.duration_s = duration_s;
         case
     }
 
-    /// The case, of which something else is known or not.
+    /// The case with another uncertainty.
     pub(in crate::study) fn with_uncertainty(&self, uncertainty: Uncertainty) -> Self {
         let plan = Plan { uncertainty, ..self.plan.clone() };
         Self { plan, fingerprint: OnceLock::new(), ..self.clone() }
     }
 
-    /// Fingerprint of all that the plan says.
+    /// Fingerprint of everything that the plan says.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         *self.fingerprint.get_or_init(|| Fingerprint::of(&self.plan))
     }
 
-    /// Title of the plan; the path of its file where the plan has no title.
+    /// Title of the plan; the path of its file if the plan has no title.
     pub fn title(&self) -> Cow<'_, str> {
         self.plan.title.as_deref().map_or_else(|| self.source.name().into(), Cow::Borrowed)
     }
 
-    /// The shot of blast rows fired in `order`, `interval` apart, the holes of each as `holes` says.
+    /// The shot of blast rows fired in `order`, `interval` apart. The holes of each row fire as `holes` says.
     pub fn shot(&self, order: &[usize], interval: Time, holes: &HoleTiming) -> Shot {
         shot_in_order(self.scene(), &self.plan.blast_rows, order, interval, holes)
     }
@@ -112,12 +112,12 @@ impl Case {
         self.model.scene()
     }
 
-    /// Settings of a run by `method` at `step` [s], which ends where the plan says.
+    /// Settings of a run by `method` at `step` [s]. The run ends where the plan says.
     pub fn run_settings(&self, method: Method, step: f64) -> RunSettings {
         RunSettings { method, step, duration: self.plan.simulation.duration_s }
     }
 
-    /// Number of tires that `method` integrates: the greatest of all options. Mirror planes of shelter and shot make it
+    /// Number of tires that `method` integrates: the greatest number of all options. Mirror planes of shelter and shot make it
     /// smaller than the number of tires.
     pub fn modelled_tires(&self, method: Method) -> usize {
         self.shots.iter().map(|shot| self.model.modelled_tires(method, shot)).max().unwrap_or(0)

@@ -1,4 +1,4 @@
-//! The question of `check`: pass or fail of every option, and for those that fail the changes with which they would pass.
+//! The question of `check`: does every option pass? For options that do not, it finds the changes with which they would pass.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,12 +9,12 @@ use super::remedies::{Remedies, find_all_remedies, not_passing};
 use super::study_trait::{Study, Subject};
 use super::{Case, ComputeResult, Computed, Context};
 
-/// Pass or fail of every option.
+/// The question: does every option pass?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Which options must pass.
     pub must_pass: MustPass,
-    /// Whether the changes are looked for with which options would pass that do not.
+    /// Whether to search the changes with which options would pass that do not pass now.
     pub why: bool,
 }
 
@@ -25,11 +25,11 @@ pub struct JudgedPlan {
     pub results: OptionResults,
     /// Which of them must pass.
     pub must_pass: MustPass,
-    /// The changes that were tried for options that do not pass; `None` where nobody asked.
+    /// The changes that were tried for options that do not pass; `None` if they were not requested.
     pub remedies: Option<Vec<Remedies>>,
 }
 
-/// Share of the work that the verdicts take, where changes are looked for, too.
+/// Share of the progress that the verdicts take if changes are searched, too.
 const SHARE_OF_JUDGEMENT: f64 = 0.2;
 
 impl Study for Question {
@@ -49,7 +49,7 @@ impl Question {
     /// Every option must pass, and no changes are looked for.
     pub const OF_VERDICT: Self = Self { must_pass: MustPass::Every, why: false };
 
-    /// Judges all options of several plans in parallel; the results stand in the order of plans and options.
+    /// Judges all options of several plans in parallel. The results are in the order of plans and options.
     pub fn answer_of_all(&self, contexts: &[Context<'_>]) -> ComputeResult<Vec<JudgedPlan>> {
         let Some(&Context { control, .. }) = contexts.first() else {
             return Ok(Computed::complete(Vec::new()));

@@ -1,14 +1,14 @@
-//! What every study is handed: the plan made ready, how it is sampled and computed, and how it is stopped.
+//! Input of every study: the plan made ready, how it is sampled and computed, and how it is stopped.
 
 use super::samples::sample_count::Sampling;
 use super::{Case, ComputeSettings, StudyControl};
 
-/// What every study is handed.
+/// Input of every study.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// The plan made ready.
     pub case: &'a Case,
-    /// Samples behind a verdict; `None` where only the shots as planned count.
+    /// Samples behind a verdict; `None` if only the planned shots count.
     pub sampling: Option<Sampling>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
@@ -17,7 +17,7 @@ pub struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// The context of a study of the shots as planned alone.
+    /// The context of a study of planned shots alone.
     pub fn new(case: &'a Case, compute: ComputeSettings, control: &'a StudyControl) -> Self {
         Self { case, sampling: None, compute, control }
     }
@@ -27,7 +27,7 @@ impl<'a> Context<'a> {
         Self { sampling: sampling.into(), ..self }
     }
 
-    /// The same context of another case: that of a plan that the study has changed.
+    /// The same context for another case, whose plan the study has changed.
     pub fn with_case<'b>(&self, case: &'b Case) -> Context<'b>
     where
         'a: 'b,

@@ -1,4 +1,4 @@
-//! Between which heights and forces nine of ten sampled shots lie at each time: for charts, found apart from every verdict.
+//! Bands of height and force in which nine of ten sampled shots lie at each time. They are for charts, apart from every verdict.
 
 use super::judge::deciding_shot::DecidingShot;
 use super::samples::sampled_shot::{SAMPLES_FOR_BANDS, SampledShot};
@@ -7,28 +7,28 @@ use super::work::batch::run_batch;
 use super::{Context, NoResult, catch_panic};
 use crate::outcome::History;
 
-/// Stretches of time of a band: the columns of a wide chart.
+/// Number of stretches of time in a band: the columns of a wide chart.
 const STRETCHES: usize = 160;
-/// Shares of the shots below the ends of a band.
+/// Shares of the shots below the two ends of a band.
 const ENDS: [f64; 2] = [0.05, 0.95];
 
-/// The 5th and the 95th percentile of the courses of sampled shots, each in even stretches of time.
+/// The 5th and the 95th percentile of the courses of sampled shots, in even stretches of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CourseBand {
     /// Width of a stretch [s].
     pub width: f64,
-    /// Of the greatest height in each stretch [m] (`n_stretches`).
+    /// Percentiles of the greatest height in each stretch [m] (`n_stretches`).
     pub height: [Vec<f64>; 2],
-    /// Of the greatest cable force in each stretch [N] (`n_stretches`).
+    /// Percentiles of the greatest cable force in each stretch [N] (`n_stretches`).
     pub force: [Vec<f64>; 2],
 }
 
 impl CourseBand {
-    /// Runs the first samples of an option, drawn with `seed`, once more; `None` where too few were drawn or have a course.
+    /// Runs the first samples of an option again, drawn with `seed`. `None` if too few samples were drawn, or too few have a course.
     ///
     /// # Panics
     ///
-    /// Where the plan has no delay option with the index `option`.
+    /// If the plan has no delay option with the index `option`.
     pub fn find(
         context: &Context<'_>,
         option: usize,
@@ -50,14 +50,14 @@ impl CourseBand {
         Ok((2 * courses.len() > SAMPLES_FOR_BANDS).then(|| Self::of(&courses)))
     }
 
-    /// The band of some courses. A shot that is over counts with nothing from then on.
+    /// The band of some courses. After the end of its run, a shot counts as 0.
     fn of(courses: &[History]) -> Self {
         let end = |course: &History| course.width * course.height.len() as f64;
         let width = courses.iter().map(end).fold(0.0, f64::max) / STRETCHES as f64;
         let percentiles = |values: fn(&History) -> &[f64]| {
             let greatest = |course: &History, n: usize| {
                 let [from, to] = [n, n + 1].map(|edge| edge as f64 * width / course.width);
-                // Times that are alike but for rounding belong to one bucket.
+                // Times that differ only by rounding belong to one bucket.
                 let buckets = (from + 1e-9).floor() as usize..(to - 1e-9).ceil().max(0.0) as usize;
                 let of_course = values(course).iter().skip(buckets.start).take(buckets.len().max(1));
                 of_course.copied().fold(0.0, f64::max)
@@ -85,7 +85,7 @@ impl CourseBand {
 mod tests {
     use super::*;
 
-    /// Of 101 courses, as high as their numbers in their first half, five lie below the band and five above it.
+    /// 101 courses are as high as their numbers in their first half. Five lie below the band, and five above it.
     #[test]
     fn nine_of_ten_courses_lie_between_the_ends() {
         let course = |n: usize| History {

@@ -1,4 +1,4 @@
-//! Holes that fire so shortly after one another that rules on ground vibration count them as one.
+//! Holes that fire so closely together that rules on ground vibration count them as one.
 
 use crate::scene::Shot;
 use crate::study::Case;
@@ -7,17 +7,17 @@ use crate::study::Case;
 /// (30 CFR 816.68).
 const TOGETHER: f64 = 8e-3;
 
-/// What fires together in a shot as planned.
+/// Holes and charge that fire together in a planned shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithinEightMs {
     /// Most holes that fire within any 8 ms.
     pub holes: usize,
-    /// Heaviest charge within any 8 ms [kg]; `None` where the plan names no charges.
+    /// Heaviest charge within any 8 ms [kg]; `None` if the plan names no charges.
     pub charge: Option<f64>,
 }
 
 impl WithinEightMs {
-    /// What fires together in a shot of a case. Only the planned times count: no scatter of detonators.
+    /// Holes and charge that fire together in a shot of a case. Only the planned times count, without scatter of detonators.
     pub fn of(case: &Case, shot: &Shot) -> Self {
         let charged = case.plan.launches().any(|launch| launch.charge_kg.is_some());
         Self {

@@ -1,4 +1,4 @@
-//! Position of every tire over time, for playing one option back.
+//! Position of every tire over time, to play one option back.
 
 use std::collections::BTreeMap;
 
@@ -14,14 +14,14 @@ use crate::scene::{Cable, Scene, Shot};
 use crate::simulation::Motion;
 use crate::verdict::Limits;
 
-/// Motion of one option, as planned or as one of its samples, recorded at even times.
+/// Motion of one option, of its planned shot or of a sample, recorded at even times.
 #[derive(Clone, Debug)]
 pub struct Flight {
     /// Index of the delay option.
     pub option: usize,
-    /// Which sample; `None` for the shot as planned.
+    /// The sample; `None` for the planned shot.
     pub sample: Option<DrawnSample>,
-    /// The shelter, as planned or as the sample has it.
+    /// The shelter, as planned or as in the sample.
     pub scene: Scene,
     /// What fires when.
     pub shot: Shot,
@@ -34,14 +34,14 @@ pub struct Flight {
     displacements: Vec<[f32; 3]>,
 }
 
-/// What happens at a stop of the flight.
+/// Event at which the flight stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// A blast row fires.
     Row {
         /// Index of the row.
         row: usize,
-        /// Whether all its holes fire at once; else the first one does.
+        /// Whether all its holes fire at once. If not, the first hole fires.
         at_once: bool,
     },
     /// The greatest force of all.
@@ -53,20 +53,20 @@ pub enum Stop {
 /// Greatest height of a tire that counts as on the ground [m].
 pub const GROUND: f32 = 1e-4;
 
-/// Difference between two times that are the same but for rounding [s].
+/// Difference of two times that are the same except for rounding [s].
 pub const SAME_TIME: f64 = 1e-9;
 
 /// Greatest number of displacements kept, of all tires and frames: 60 MB.
 const MOST_KEPT: usize = 5_000_000;
-/// Least and greatest number of frames kept; even, because a full recording is halved.
+/// Least and greatest number of frames kept. The numbers are even, because a full recording is halved.
 const FRAMES: [usize; 2] = [16, 1024];
 
-/// The motion of one option.
+/// The question: how does one option move?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Index of the option.
     pub option: usize,
-    /// Which of its samples; `None`: as planned.
+    /// The sample; `None` for the planned shot.
     pub sample: Option<DrawnSample>,
 }
 
@@ -82,13 +82,13 @@ impl Study for Question {
     }
 }
 
-/// Runs one option once, as planned or as one of its samples, and records frames.
+/// Runs one option once, its planned shot or a sample, and records frames.
 ///
 /// Memory is bounded for runs of any length: a full recording drops every second frame.
 ///
 /// # Panics
 ///
-/// Where the plan has no delay option with the index `option`.
+/// If the plan has no delay option with the index `option`.
 pub fn record(context: &Context<'_>, option: usize, sample: Option<DrawnSample>) -> Result<Flight, NoResult> {
     let &Context { case, compute, control, .. } = context;
     let traced = TracedShot::new(case, option, &compute, sample);
@@ -139,7 +139,7 @@ fn halve(times: &mut Vec<f64>, displacements: &mut Vec<[f32; 3]>, tires: usize) 
 }
 
 impl Flight {
-    /// Where the flight stops, with the time [s], in no order: each row, the greatest force and the greatest height.
+    /// Stops of the flight with their times [s], in no order: each row, the greatest force and the greatest height.
     pub fn stops(&self) -> Vec<(f64, Stop)> {
         let Outcome { height, force, .. } = &self.outcome;
         let peaks = [(force, Stop::Force), (height, Stop::Height)];
@@ -166,8 +166,8 @@ impl Flight {
         self.outcome.end.time
     }
 
-    /// Elastic force of each cable at `time` [N] (`n_cables`); 0 where it is slack or broken. A cable with a strength of its own counts
-    /// as in [`Outcome::force`].
+    /// Elastic force of each cable at `time` [N] (`n_cables`); 0 if the cable is slack or broken. A cable with a strength of its
+    /// own counts as in [`Outcome::force`].
     pub fn forces(&self, time: f64) -> Vec<f64> {
         let frame = self.at(time);
         let displacement = |tire: usize| Vector3::from(frame[tire].map(f64::from));

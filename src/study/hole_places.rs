@@ -1,4 +1,4 @@
-//! Where holes lie under a shelter, by their places in the plan: beside the middle of a tire, between two, or under none.
+//! Places of holes under a shelter by the plan: beside the middle of a tire, between two tires, or under none.
 
 use std::collections::HashMap;
 
@@ -8,11 +8,12 @@ use nalgebra::{Vector2, Vector3};
 use super::Case;
 use crate::scene::{Firing, Scene, Shot};
 
-/// Distance of a hole from the centre of its tire over the tire's diameter from which it is told.
+/// Distance of a hole from the center of its tire, over the diameter of the tire, from which the hole is reported.
 const FAR: f64 = 0.25;
-/// Height of a tire over its radius from which it covers nothing: the gap under its edge, 2 π r z, is then wider than the tire, π r².
+/// Height of a tire over its radius from which the tire covers nothing. The gap under its edge, 2 π r z, is then greater than the
+/// tire, π r².
 const HIGH: f64 = 0.5;
-/// Difference of two distances that nobody stakes out more closely [m].
+/// Difference of two distances [m]. Nobody stakes out holes more exactly.
 const LEAST_DIFFERENCE: f64 = 0.05;
 
 /// A hole that lies beside the middle of its tire.
@@ -22,9 +23,9 @@ pub struct HoleBesideTire {
     pub row: usize,
     /// Number of the hole in its row, from 0.
     pub number: usize,
-    /// The nearest tire and the next.
+    /// Indices of the nearest tire and of the next.
     pub tires: [usize; 2],
-    /// Distances of their centres from the hole [m].
+    /// Distances of their centers from the hole [m].
     pub away: [f64; 2],
     /// Whether no tire lies over the hole.
     pub is_uncovered: bool,
@@ -32,20 +33,21 @@ pub struct HoleBesideTire {
     pub may_be_the_next: bool,
 }
 
-/// Where a hole lies in the plan [m].
+/// Place of a hole in the plan [m].
 pub fn place_of_hole(scene: &Scene, firing: &Firing) -> Vector2<f64> {
     scene.position[firing.tire].xy() - firing.line.offset
 }
 
-/// The holes of a shot that lie farther than a quarter of a diameter from the centre of their tire. Without a diameter the distance
-/// from that tire to the next one counts for it.
+/// The holes of a shot that lie farther than a quarter of a diameter from the center of their tire, or nearly as near to the next
+/// tire. Without a diameter, the distance from their tire to the next one counts as the diameter.
 pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     let scene = case.scene();
     let uncertainty = &case.plan.uncertainty;
     let doubt = (2.0 * uncertainty.hole_position_m.hypot(uncertainty.pattern_offset_m)).max(LEAST_DIFFERENCE);
     let beside = |firing: &Firing| {
         let away = firing.line.offset.norm();
-        // A hole under the middle of its tire lies beside none: each check of a shot asks this of every hole.
+        // A hole under the middle of its tire lies beside no tire. It returns early, because each check of a shot asks this of
+        // every hole.
         if away == 0.0 {
             return None;
         }
@@ -67,14 +69,14 @@ pub fn holes_beside_tires(case: &Case, shot: &Shot) -> Vec<HoleBesideTire> {
     shot.firings.iter().filter_map(beside).collect()
 }
 
-/// Whether a hole lies farther than a quarter of a diameter from the centre of its tire.
+/// Whether a hole lies farther than a quarter of a diameter from the center of its tire.
 pub fn lies_far(case: &Case, firing: &Firing) -> bool {
     firing.line.offset.norm() > FAR * diameter(case, firing.tire)
 }
 
-/// How near a hole is to lying under no tire, where tires have moved by so much [m]: above 1 it does. A tire covers it up to a radius
-/// aside, and up to half a radius high; that of the hole counts while it does, else the one that covers it best. Without a diameter
-/// half the distance from its tire to the next one, as laid, counts for the radius.
+/// How near a hole is to lying under no tire, if the tires have moved by `moved` [m]. Above 1 it lies under none. A tire covers the
+/// hole up to a radius aside, and up to half a radius high. The hole's own tire counts while it covers the hole, else the tire that
+/// covers it best. Without a diameter, half the distance from its tire to the next one, as laid, counts as the radius.
 pub fn uncovering(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3<f64>) -> f64 {
     let scene = case.scene();
     let place = scene.position[firing.tire].xy() - firing.line.offset;
@@ -91,7 +93,7 @@ pub fn uncovering(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3
 /// Diameter of the largest tires made, those of mining trucks [m].
 const LARGEST: f64 = 4.0;
 
-/// The outer diameter of tires [m]; without one the distance from a tire to the next one, which no tire exceeds by its size.
+/// The outer diameter of a tire [m]. If the plan has none, the distance from the tire to the next one: no tire is larger than that.
 fn diameter(case: &Case, tire: usize) -> f64 {
     match case.plan.tire.outer_diameter_m {
         0.0 => {
@@ -102,7 +104,7 @@ fn diameter(case: &Case, tire: usize) -> f64 {
     }
 }
 
-/// The tires in each square of the ground of the side [`LARGEST`], so that each firing of a run asks those nearby alone.
+/// The tires in each square of the ground with the side [`LARGEST`]. So each firing of a run looks only at nearby tires.
 #[derive(Clone, Debug)]
 pub struct TiresByPlace(HashMap<[i64; 2], Vec<usize>>);
 
@@ -127,7 +129,7 @@ fn square(at: &Vector3<f64>) -> [i64; 2] {
     [at.x, at.y].map(|along| (along / LARGEST).floor() as i64)
 }
 
-/// Number of holes of a shot that lie under no tire: farther than a radius from the centre of every one.
+/// Number of holes of a shot that lie under no tire: farther than a radius from the center of every one.
 pub fn count_under_no_tire(case: &Case, shot: &Shot) -> usize {
     holes_beside_tires(case, shot).iter().filter(|hole| hole.is_uncovered).count()
 }
@@ -151,7 +153,7 @@ mod tests {
         Case::new(Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// Tires nearby are as near as any: those of shelters in squares of the ground are compared with all of them.
+    /// The next tire in the nearby squares is the next of all tires. The search by squares is compared with a search over all tires.
     #[test]
     fn the_next_tire_is_the_nearest_of_all() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
@@ -168,8 +170,9 @@ mod tests {
         }
     }
 
-    /// Tires of 1.6 m, 2 m apart: a hole is told from 0.4 m on, lies under no tire from 0.8 m on, and may belong to the next tire from
-    /// 0.93 m on (2 √(0.05² + 0.05²) = 0.14 m nearer to one). Without a diameter the 2 m to the next tire count for it.
+    /// Tires of 1.6 m, 2 m apart. A hole is reported from 0.4 m on, lies under no tire from 0.8 m on, and may belong to the next
+    /// tire from 0.93 m on (2 √(0.05² + 0.05²) = 0.14 m nearer to one). Without a diameter, the 2 m to the next tire count as the
+    /// diameter.
     #[test]
     fn holes_are_told_by_how_far_they_lie_beside_their_tire() {
         let found = |x: f64, diameter: f64| {

@@ -1,7 +1,7 @@
-//! A study that several machines computed, a shard each: joined, and completed by what only all shards together tell.
+//! Joins a study that several machines computed, a shard each, and completes it with what only all shards together show.
 //!
-//! The study is computed as on one machine. What a shard holds is taken from there, the text of the plan, too: where the file of the
-//! plan says something else by now, the case says so.
+//! The study is computed as on one machine, but takes from the shards what they hold, also the text of the plan. If the file of the
+//! plan has another text by now, `Merged::file` says so.
 
 use std::path::Path;
 
@@ -17,22 +17,22 @@ use crate::plan::PlanSource;
 pub struct Merged {
     /// The plan that all shards hold, as the question takes it.
     pub case: Case,
-    /// What became of the file of the plan.
+    /// State of the file of the plan.
     pub file: FileState,
     /// The question.
     pub asked: Asked,
     /// What the study found.
     pub found: Found,
-    /// The files of the plan that the shards name.
+    /// Paths of the plan that the shards name.
     pub paths: Vec<String>,
 }
 
-/// Why shards make no study.
+/// Why shards cannot be merged.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MergeFailure {
     /// What is wrong with the shards.
     Shards(String),
-    /// What they leave to be computed has no result.
+    /// The rest of the study has no result.
     NoResult(NoResult),
 }
 
@@ -54,13 +54,13 @@ pub fn merge(shards: &[(String, String)]) -> Result<Merged, MergeFailure> {
     let case = Case::parse(PlanSource { path: path.unwrap_or(plan).into(), text });
     let case = case.map_err(|mistakes| MergeFailure::Shards(mistakes.first()))?;
     let found = asked.answer(&case, &StudyControl::with_journal(Journal::of_known(known)))?;
-    // It may change while the rest is computed.
+    // The file may change while the rest is computed.
     let file = file_now(&paths, &case.source.text).0;
     Ok(Merged { case, file, asked, found, paths })
 }
 
-/// What became of the file of a plan with this text, of which the shards name these `paths`, those of several machines; the path of one
-/// that says something else.
+/// State of the file of a plan with this text, and the path of a file that has another text by now. `paths` are the paths that the
+/// shards name, from several machines.
 fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
     let states: Vec<_> = paths.iter().map(|path| FileState::of(Path::new(path), text)).collect();
     let mut found = [FileState::Changed, FileState::AsJudged, FileState::Pipe].into_iter();
@@ -69,7 +69,7 @@ fn file_now(paths: &[String], text: &str) -> (FileState, Option<String>) {
     (found, changed.map(|n| paths[n].clone()))
 }
 
-/// The results of all shards, given as `(name, text)`, and the paths of their plans; says what is wrong with them.
+/// Joins all shards, given as `(name, text)`. Returns their results and the paths of their plans, or what is wrong with the shards.
 fn join(shards: &[(String, String)]) -> Result<(Contents, Vec<String>), String> {
     let mut contents_by_name = Vec::new();
     for (name, text) in shards {

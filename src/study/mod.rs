@@ -1,27 +1,27 @@
-//! Studies: which shots of a plan are run, how often and how finely, to answer one question of the user.
+//! Studies: each runs shots of a plan, as often and as finely as needed, to answer one question of the user.
 //!
 //! | what | where |
 //! |---|---|
-//! | all that a user can ask, one list; the settings of a question, which answer it; what every study is handed | [`question`], [`study_trait`], [`Context`] |
-//! | a plan made ready to run; method, accuracy and step; what became of its file | [`Case`], [`ComputeSettings`], [`FileState`] |
-//! | one shot as planned: checked, and what speaks against it | [`as_planned`] |
-//! | the shots that are possible: drawn, run, counted | [`samples`] |
+//! | the list of all questions; what they have in common; the input of every study | [`question`], [`study_trait`], [`Context`] |
+//! | a plan made ready to run; method, accuracy and step; the state of its file | [`Case`], [`ComputeSettings`], [`FileState`] |
+//! | one planned shot: its check, and why it does not pass | [`as_planned`] |
+//! | sampled shots: drawn, run, counted | [`samples`] |
 //! | both together: does an option pass, and may it be offered | [`judge`] |
-//! | the record of observations of earlier shots, and which observations contradict a plan | [`observed`] |
-//! | what takes passes of a plan back, and whether an option may be fired; the word of its verdict; whether a plan may take what a fit found | [`standing`] |
-//! | where the holes of a shot lie, by the tires over them | [`hole_places`] |
-//! | what fires within any 8 ms | [`eight_ms`] |
-//! | the questions of the user, one each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`], [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
-//! | several of them at once, for the blast file | [`page`] |
-//! | what it will cost | [`cost`] |
-//! | how work runs: on all cores, with progress, to be stopped | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
+//! | the record of observations of earlier shots, and the observations that contradict a plan | [`observed`] |
+//! | what withdraws passes; whether to fire an option; its verdict word; whether a plan may take a fit | [`standing`] |
+//! | places of the holes of a shot, by the tires over them | [`hole_places`] |
+//! | holes and charge that fire within any 8 ms | [`eight_ms`] |
+//! | one question of the user each | [`check`], [`sweep`], [`orders`], [`risk`], [`search`], [`size`], [`remedies`] |
+//! | | [`effects`], [`assumptions`], [`mod@fit`], [`launch`], [`accuracy`], [`flight`], [`trace`] |
+//! | several questions at once, for the blast file | [`page`] |
+//! | the expected cost | [`cost`] |
+//! | how work runs: on all cores, with progress | [`work`]; on many machines: [`merge`]; results on the disk: [`results_file`] |
 //!
-//! Three verbs: a shot as planned is *checked*, possible shots are *sampled*, and both together are *judged*.
+//! Three verbs: a planned shot is *checked*, shots drawn at random are *sampled*, and both together are *judged*.
 //!
-//! A study takes a context and returns plain data, which every face draws; `size` makes a case of each combination of sizes, `remedies` one
-//! of each change.
-//! Studies do not print and do not compute physics. Only `results_file` reads and writes files of a format, in the
-//! lines of `work::journal`, and `observed::record_file`.
+//! A study takes a context and returns plain data, which every interface draws. `size` makes a case of each combination of sizes,
+//! and `remedies` makes a case of each change. Studies do not print and do not compute physics. Only `results_file`, in the lines
+//! of `work::journal`, and `observed::record_file` read and write files of a format.
 
 pub mod accuracy;
 pub mod as_planned;

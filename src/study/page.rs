@@ -1,5 +1,5 @@
-//! What the page for the blast file tells of a plan: its verdicts, other intervals, what was seen of earlier shots, and what the pass of
-//! the option to be fired stands on.
+//! Findings for the page of the blast file: the verdicts of a plan, other intervals, observations of earlier shots, and what the
+//! pass of the option to be fired stands on.
 
 use super::assumptions::{Assumptions, Extent, SAMPLES, find_assumptions};
 use super::check::{self, JudgedPlan};
@@ -15,28 +15,28 @@ use super::sweep::{self, Sweep};
 use super::{Case, ComputeResult, Computed, Context, FileState, NoResult};
 use crate::plan::observations::Observations;
 
-/// What the page is asked to tell.
+/// The question of the page.
 pub struct Question {
-    /// Index of the option to be fired; `None` where none is chosen.
+    /// Index of the option to be fired; `None` if none is chosen.
     pub to_be_fired: Option<usize>,
     /// The interval between rows to sweep; `None` for no sweep.
     pub sweep: Option<sweep::Question>,
-    /// What was seen of earlier shots.
+    /// Observations of earlier shots.
     pub observed: Vec<Observations>,
 }
 
-/// What the page tells.
+/// Findings for the page.
 #[derive(Debug)]
 pub struct PageFindings {
     /// The results of the options.
     pub judged: Computed<JudgedPlan>,
-    /// Height, force and risk against the interval, where a sweep was asked for.
+    /// Height, force and risk over the interval, if a sweep was requested.
     pub sweep: Option<Computed<Sweep>>,
-    /// What was seen.
+    /// The observations.
     pub seen: ObservedShots,
-    /// What could have been seen (`n_observations`); `None` where the time was up.
+    /// Predictions of the observations (`n_observations`); `None` if the time was up.
     pub predictions: Option<Vec<Prediction>>,
-    /// What the pass of the option to be fired stands on; `None` where it was not asked for, or there is no result.
+    /// What the pass of the option to be fired stands on; `None` if it was not requested, or there is no result.
     pub stands_on: Option<Assumptions>,
 }
 
@@ -47,7 +47,7 @@ const PREDICTIONS: f64 = 1.0;
 const STANDS_ON: f64 = 3.0;
 
 impl PageFindings {
-    /// How the plan stands beside what was seen in these files.
+    /// Comparison of the plan with the observations in these files.
     pub fn compared(&self, case: &Case, files: &[Observations]) -> Comparison {
         match &self.predictions {
             Some(found) => compare(case, files, &self.seen, found),
@@ -57,7 +57,7 @@ impl PageFindings {
 }
 
 impl Question {
-    /// The weights of the steps that are taken.
+    /// The weights of the steps to take.
     fn weights(&self, is_sampled: bool) -> Vec<f64> {
         let weight = |is_asked: bool, weight: f64| is_asked.then_some(weight);
         let weights = [
@@ -69,7 +69,7 @@ impl Question {
         weights.into_iter().flatten().collect()
     }
 
-    /// All that the page tells.
+    /// All findings for the page.
     pub fn answer(&self, context: &Context<'_>) -> ComputeResult<PageFindings> {
         let &Context { case, sampling, control, .. } = context;
         let weights = self.weights(sampling.is_some());
@@ -100,7 +100,7 @@ impl Question {
             };
         }
         let mut found = PageFindings { judged, sweep: swept, seen, predictions, stands_on: None };
-        // What a pass stands on is asked of a pass that stands.
+        // Only for a pass that stands, find what it stands on.
         let compared = found.compared(case, &self.observed);
         let standing = Standing::of(case, FileState::now(&case.source), compared);
         let results = &found.judged.value.results;
@@ -114,7 +114,7 @@ impl Question {
         if let (Some(option), Some(Sampling { seed, .. })) = (self.to_be_fired.filter(passes), sampling) {
             let _finding = step(STANDS_ON);
             let context = context.with_sampling(Sampling::exactly(SAMPLES, seed));
-            // The verdicts stand without it. What was found in part says nothing: a value that nobody tried would pass.
+            // The verdicts stand without it. A partial result says nothing: it would pass a value that was not tried.
             let stands_on = find_assumptions(&context, option, Extent::Nearest).ok();
             found.stands_on = stands_on.filter(|found| !found.partial).map(|found| found.value);
             partial = partial || found.stands_on.is_none();
@@ -130,7 +130,7 @@ mod tests {
     use crate::study::judge::brief_judgement::tests::case as two_tires;
     use crate::study::{ComputeSettings, StudyControl};
 
-    /// Findings on the one option of a plan, after a film in which a tire flew so high.
+    /// Findings on the one option of a plan, after a film in which a tire flew to `height` [m].
     fn found(
         case: &Case,
         sampling: Option<Sampling>,
@@ -150,7 +150,7 @@ mod tests {
         Question { to_be_fired: Some(0), sweep: None, observed }.answer(&context).expect("findings")
     }
 
-    /// A pass that stands tells what it stands on; one that was seen otherwise tells what was seen, and a fail nothing.
+    /// A pass that stands has findings on what it stands on. A pass that an observation contradicts has none, and neither has a fail.
     #[test]
     fn what_a_pass_stands_on_is_asked_of_a_pass_that_stands() {
         let case = two_tires("", false);

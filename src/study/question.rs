@@ -1,7 +1,6 @@
-//! What a user can ask, and what is found: one list of questions, which the command line, the terminal, `--save`, shards and `merge`
-//! share.
+//! What a user can ask, and what is found: one list of questions for the command line, the terminal, `--save`, shards and `merge`.
 //!
-//! A question is the settings of one study. Its answer is plain data, which a report words.
+//! A question is the settings of one study. Its answer is plain data. A report puts the answer into words.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,16 +8,16 @@ use super::samples::sample_count::Sampling;
 use super::study_trait::{Listed, Study, Subject};
 use super::{Case, ComputeResult, ComputeSettings, Computed, Context, NoResult, Shard, StudyControl};
 
-/// Hands the list of all questions to a macro: its name, its settings, and the functions of its file in `report` that word its
-/// answer: whole, and where it is [listed](super::study_trait::Listed), in one line.
+/// Gives the list of all questions to a macro: the name of each, its settings, and the functions in its file in `report` that put
+/// its answer into words: in full, and, if it is [listed](super::study_trait::Listed), in one line.
 macro_rules! with_questions {
     ($callback:ident) => {
         $callback! {
             /// Pass or fail of every option.
             Check(check::Question, {report}),
-            /// Height, force and risk against the interval.
+            /// Height, force and risk over the interval.
             Sweep(sweep::Question, {report, in_brief}),
-            /// Every order: the worst, the best.
+            /// Every order: the worst, and the best.
             Orders(orders::Question, {report, in_brief}),
             /// Samples of every option.
             Risk(risk::Question, {report, in_brief}),
@@ -28,11 +27,11 @@ macro_rules! with_questions {
             Size(size::Question, {report, in_brief}),
             /// Which effects the scene requires.
             Effects(effects::Question, {report, in_brief}),
-            /// Launch velocities and other unknowns from what was seen of earlier shots.
+            /// Launch velocities and other unknowns from observations of earlier shots.
             Fit(fit::Question, {report, in_brief}),
             /// What the pass of one option stands on.
             Assumptions(assumptions::Question, {report_of_one, in_brief}),
-            /// What the options stand on that pass.
+            /// What the passing options stand on.
             AssumptionsOfPassing(assumptions::OfPassing, {report}),
             /// The motion of one option.
             Flight(flight::Question, {report}),
@@ -60,7 +59,7 @@ macro_rules! declare_questions {
             $( $(#[$about])* $Name(Box<Computed<<super::$study::$Question as Study>::Found>>), )+
         }
 
-        /// Which question.
+        /// Kind of a question.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum StudyKind {
             $( $(#[$about])* $Name, )+
@@ -70,19 +69,19 @@ macro_rules! declare_questions {
             /// Every kind, in the order of declaration.
             pub const ALL: [StudyKind; [$(StudyKind::$Name),+].len()] = [$(StudyKind::$Name),+];
 
-            /// How it stands in the list of questions; `None` where another screen asks it.
+            /// Its entry in the list of questions; `None` if another screen asks it.
             pub fn listed(self) -> Option<Listed> {
                 match self { $( Self::$Name => <super::$study::$Question as Study>::LISTED, )+ }
             }
 
-            /// Runs that the usual question is expected to take.
+            /// Expected number of runs of the usual question.
             pub fn expected_runs(self, case: &Case) -> Option<usize> {
                 match self { $( Self::$Name => <super::$study::$Question as Study>::expected_runs(case), )+ }
             }
         }
 
         impl Asked {
-            /// The question of a kind where nobody asks for other settings.
+            /// The question of a kind with the usual settings.
             pub fn usual(kind: StudyKind, case: &Case, about: Subject, compute: ComputeSettings) -> Self {
                 let (question, sampling) = match kind {
                     $( StudyKind::$Name => (
@@ -112,7 +111,7 @@ macro_rules! declare_questions {
         }
 
         impl Found {
-            /// Whether the time was up before all was computed.
+            /// Whether the time was up before everything was computed.
             pub fn is_partial(&self) -> bool {
                 match self { $( Self::$Name(found) => found.partial, )+ }
             }
@@ -122,7 +121,7 @@ macro_rules! declare_questions {
 with_questions!(declare_questions);
 
 impl StudyKind {
-    /// The kinds that stand in the list of questions, in its order.
+    /// The kinds in the list of questions, in the order of the list.
     pub fn tabs() -> Vec<Self> {
         Self::ALL.into_iter().filter(|kind| kind.listed().is_some()).collect()
     }
@@ -133,19 +132,19 @@ impl StudyKind {
 pub struct Asked {
     /// The question.
     pub question: Question,
-    /// Samples behind a verdict; `None` where only the shots as planned were asked for.
+    /// Samples behind a verdict; `None` if only the planned shots were requested.
     pub sampling: Option<Sampling>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
 }
 
 impl Asked {
-    /// What its answer is handed.
+    /// The context for its answer.
     pub fn context<'a>(&self, case: &'a Case, control: &'a StudyControl) -> Context<'a> {
         Context::new(case, self.compute, control).with_sampling(self.sampling)
     }
 
-    /// Whether somebody fixed the step of what is sampled: no pass of it is leave to fire.
+    /// Whether the user fixed the step of sampled shots. A pass at such a step is no permission to fire.
     pub fn is_step_fixed(&self) -> bool {
         self.sampling.is_some() && self.compute.step.is_some()
     }

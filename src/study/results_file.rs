@@ -1,9 +1,9 @@
-//! The file of a study's results: what `--save` goes on from, what `--shard` writes, what `merge` joins.
+//! The results file of a study: `--save` continues it, `--shard` writes it, and `merge` joins several.
 //!
-//! Each line is an object of JSON with a checksum of its own. The first line is the [`Head`]: the question, and the plan itself, so
-//! that merging needs no other file. Each further line is one result with its key, in any order; results are appended as they
-//! come. Once the study was computed to its end, a line says so, with the number of results. A program that is killed leaves
-//! at most a last line without its end, which is dropped.
+//! Each line is a JSON object with its own checksum. The first line is the [`Head`]: the question, and the plan itself, so that
+//! merging needs no other file. Each further line is one result with its key, in any order. Results are appended as they come. When
+//! the study is computed to its end, a line says so, with the number of results. A killed program leaves at most a last line
+//! without its end, which is dropped.
 
 use std::collections::HashMap;
 use std::fs::{OpenOptions, TryLockError};
@@ -17,13 +17,13 @@ use super::work::journal::{Line, read_body, sealed, unsealed};
 use super::{Case, Fingerprint, Journal, Shard};
 use crate::file;
 
-/// The first line of a file of results.
+/// The first line of a results file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
     schema: String,
     /// Version of the program that wrote the file.
     version: String,
-    /// Its [`BUILD`].
+    /// [`BUILD`] of that program.
     build: String,
     /// The question.
     pub asked: Asked,
@@ -31,7 +31,7 @@ pub struct Head {
     pub plan: String,
     /// Text of the plan.
     pub text: String,
-    /// Which shard of the results this is.
+    /// The shard that this file holds.
     pub shard: Shard,
 }
 
@@ -39,9 +39,9 @@ pub struct Head {
 const SCHEMA: &str = "shelter.results/4";
 /// Version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// Fingerprint of all sources that results depend on: a file of another build may hold other numbers.
+/// Fingerprint of all sources that results depend on. A file of another build may hold other numbers.
 pub const BUILD: &str = env!("SHELTER_BUILD");
-/// How every first line of this format begins, in any version.
+/// Beginning of every first line of this format, in any version.
 const BEGINNING: &str = "{\"schema\":\"shelter.results/";
 
 impl Head {
@@ -63,13 +63,13 @@ impl Head {
         Ok(sealed(text.strip_suffix('}').unwrap_or(&text)))
     }
 
-    /// Why two files are not shards of one study; `None` where they are.
+    /// Why two files are not shards of one study; `None` if they are.
     pub fn difference_of_study(&self, other: &Head) -> Option<&'static str> {
         let shard = Shard { index: other.shard.index, ..self.shard };
         Head { shard, ..self.clone() }.difference(other)
     }
 
-    /// What makes it the head of another study than `other`; the path of the plan does not.
+    /// Why this is the head of another study than `other`. Another path of the plan is no reason.
     fn difference(&self, other: &Head) -> Option<&'static str> {
         match other {
             _ if self.text != other.text => Some("another plan, or of this plan before it was changed"),
@@ -83,21 +83,21 @@ impl Head {
     }
 }
 
-/// What a file of results holds.
+/// Contents of a results file.
 pub struct Contents {
-    /// Its first line.
+    /// The first line.
     pub head: Head,
-    /// Its results, as JSON.
+    /// The results, as JSON.
     pub known: HashMap<Fingerprint, Box<str>>,
     /// Whether the study was computed to its end.
     pub is_complete: bool,
-    /// Number of lines of results.
+    /// Number of result lines.
     results: usize,
     /// Length of all whole lines [bytes].
     length: usize,
 }
 
-/// What the first line of any version says.
+/// Fields of the first line in any version.
 #[derive(Deserialize)]
 struct Origin {
     schema: String,
@@ -106,7 +106,7 @@ struct Origin {
     build: String,
 }
 
-/// Reads a file of results; says what is wrong with it. `name` stands for the file in messages.
+/// Reads a results file, or says what is wrong with it. `name` is the name of the file in messages.
 pub fn read(name: &str, text: &str) -> Result<Contents, String> {
     if !text.starts_with(BEGINNING) {
         return Err(format!(
@@ -156,14 +156,14 @@ pub fn read(name: &str, text: &str) -> Result<Contents, String> {
     Ok(Contents { head, known, is_complete, results, length: whole })
 }
 
-/// Begins a file of results, or goes on with one that an earlier run of the same study left; says what speaks against it.
+/// Begins a results file, or continues the file that an earlier run of the same study left. The error says why it cannot.
 pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     let name = path.display().to_string();
     let cannot = |error: io::Error| format!("cannot save results: {name}: {error}");
     match path.metadata() {
         Ok(data) if !data.is_file() => return Err(format!("cannot save results: {name} is no file")),
         Ok(_) => {}
-        // The first line comes whole or not at all.
+        // The first line is written whole or not at all.
         Err(_) => {
             let line = head.line().map_err(cannot)?;
             file::create(path, &line).map_err(|error| format!("cannot save results: {error}"))?;
@@ -173,7 +173,7 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     let append = cfg!(not(windows));
     let mut file = OpenOptions::new().read(true).write(true).append(append).open(path).map_err(cannot)?;
     match file.try_lock() {
-        // A file system without locks is taken as it is.
+        // A file system without locks is accepted.
         Ok(()) | Err(TryLockError::Error(_)) => {}
         Err(TryLockError::WouldBlock) => {
             return Err(format!("{name}: another run saves its results there: name another file"));
@@ -182,7 +182,7 @@ pub fn open(path: &Path, head: &Head) -> Result<Journal, String> {
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(cannot)?;
     if bytes.is_empty() {
-        // An empty file is nobody's, and under the lock nobody else's.
+        // An empty file belongs to nobody, and under the lock nobody else can take it.
         bytes = head.line().map_err(cannot)?.into_bytes();
         file.write_all(&bytes).map_err(cannot)?;
     }

@@ -1,4 +1,4 @@
-//! How likely each option fails, as planned and by samples: nothing is recommended, and nothing confirmed.
+//! How likely each option fails, by its planned shot and its samples. Nothing is recommended, and nothing is confirmed.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +24,7 @@ pub struct Risks {
 }
 
 impl Question {
-    /// The sampling of a risk; [`Sampling::OF_RISK`] where none was asked for.
+    /// The sampling of a risk; [`Sampling::OF_RISK`] if none was requested.
     fn sampling(context: &Context<'_>) -> Sampling {
         context.sampling.unwrap_or(Sampling::OF_RISK)
     }

@@ -1,4 +1,4 @@
-//! Time histories of chosen tires and cables of one option, as planned or as one of its samples.
+//! Time histories of chosen tires and cables of one option, for its planned shot or a sample.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -35,7 +35,7 @@ impl TracedItems {
 pub struct TracedShot<'c> {
     case: &'c Case,
     shot: Cow<'c, Shot>,
-    /// The scene of a sample; `None` for the shot as planned.
+    /// The scene of a sample; `None` for the planned shot.
     variant: Option<Scene>,
     /// Method, step and end of the run.
     pub settings: RunSettings,
@@ -46,18 +46,18 @@ pub struct TracedShot<'c> {
 pub struct DrawnSample {
     /// Seed of the draws.
     pub seed: u64,
-    /// Its number, from 0.
+    /// Number of the sample, from 0.
     pub number: usize,
-    /// Times that the step of samples was halved, because finer runs contradicted them.
+    /// Number of times that the step of samples was halved, because finer runs contradicted the samples.
     pub step_halvings: u32,
 }
 
 impl<'c> TracedShot<'c> {
-    /// A sample of an option at the step of samples, or without one the shot as planned at the first step of a check.
+    /// A sample of an option at the step of samples. Without a sample, the planned shot at the first step of a check.
     ///
     /// # Panics
     ///
-    /// Where the plan has no delay option with the index `option`.
+    /// If the plan has no delay option with the index `option`.
     pub fn new(
         case: &'c Case,
         option: usize,
@@ -81,7 +81,7 @@ impl<'c> TracedShot<'c> {
         &self.shot
     }
 
-    /// The shelter: that of the plan, or of the sample.
+    /// The shelter of the plan, or of the sample.
     pub fn scene(&self) -> &Scene {
         self.variant.as_ref().unwrap_or(self.case.scene())
     }

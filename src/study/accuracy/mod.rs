@@ -1,4 +1,4 @@
-//! Error and computing time against the step, for both methods, on this plan and this machine.
+//! Error and computing time over the step, for both methods, on this plan and this machine.
 //!
 //! The errors are differences from a converged run.
 
@@ -25,7 +25,7 @@ pub struct StepRow {
     pub method: Method,
     /// Step [s].
     pub step: f64,
-    /// Result; `None` where the method is not stable at this step.
+    /// Result; `None` if the method is not stable at this step.
     pub result: Option<Measured>,
 }
 
@@ -59,9 +59,9 @@ pub struct AccuracyTable {
     pub option: usize,
     /// Rows of both methods, each from the longest step to the shortest.
     pub rows: Vec<StepRow>,
-    /// Step of the converged run [s]; its method is `verlet`.
+    /// Step of the converged run [s]. The method of that run is `verlet`.
     pub reference_step: f64,
-    /// Table 1 of the paper as each method computes it; empty where it was not asked for, or the plan is another.
+    /// Table 1 of the paper, computed by each method; empty if it was not requested, or if the plan is another.
     pub paper: Vec<(Method, Vec<PaperRow>)>,
     /// The accuracy levels, the coarsest first.
     pub levels: [LevelStep; 3],
@@ -76,28 +76,28 @@ pub struct LevelStep {
     pub step: f64,
 }
 
-/// A class of accuracy: greatest relative errors.
+/// A class of accuracy: its greatest relative errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorClass {
-    /// Of the height.
+    /// Greatest relative error of the height.
     pub height: f64,
-    /// Of the force.
+    /// Greatest relative error of the force.
     pub force: f64,
 }
 
-/// The quantity of a run that is hardest to tell from its limit.
+/// The quantity of a run that is hardest to judge against its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestLimit {
     /// Error over value.
     pub error: f64,
-    /// Limit less value, over the value: negative past the limit.
+    /// Limit minus value, over the value; negative if the value exceeds the limit.
     pub margin: f64,
-    /// Whether the run is past this or another limit.
+    /// Whether the run exceeds this or another limit.
     pub is_exceeded: bool,
 }
 
 impl NearestLimit {
-    /// Whether the limit is so far that a check needs no finer run.
+    /// Whether the limit is so far away that a check needs no finer run.
     pub fn is_enough(&self) -> bool {
         SURE_ERROR_FACTOR * self.error < self.margin.abs()
     }
@@ -112,7 +112,7 @@ const STEPS: i32 = 15;
 /// First step of the finest accuracy level over the step of the converged run.
 const REFERENCE_STEP_DIVISOR: f64 = 16.0;
 
-/// Longest run that is made where nobody asks for longer ones.
+/// Longest computing time of a run, unless the user asks for longer runs.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The cost of accuracy, measured on one option.
@@ -122,7 +122,7 @@ pub struct Question {
     pub option: usize,
     /// Runs that are expected to take longer are left out.
     pub patience: Duration,
-    /// Whether Table 1 of the paper is computed, too, where the plan is its shelter.
+    /// Whether Table 1 of the paper is computed, too, if the plan is its shelter.
     pub with_paper_table: bool,
 }
 
@@ -159,7 +159,7 @@ pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> Comp
     for method in [Method::Verlet, Method::Newmark] {
         let mut steps: Vec<f64> = (0..STEPS).map(|n| coarsest * step_error::RATIO.powi(-n)).collect();
         if method == Method::Verlet {
-            // A step of a level takes the place of one that differs by rounding alone.
+            // A step of a level replaces a step that differs only by rounding.
             steps.retain(|step| levels.iter().all(|level| (step / level.step - 1.0).abs() > 1e-9));
             steps.extend(levels.map(|level| level.step));
             steps.sort_by(f64::total_cmp);
@@ -176,7 +176,7 @@ pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> Comp
                     partial = true;
                     break;
                 }
-                // The method lacks an effect of the plan: it has no rows.
+                // The method lacks an effect of the plan, so it has no rows.
                 Err(NoResult::Failed(_)) => break,
                 result => result?,
             };
@@ -189,13 +189,13 @@ pub fn measure(context: &Context<'_>, option: usize, patience: Duration) -> Comp
     Ok(Computed { value: AccuracyTable { option, rows, reference_step, paper: Vec::new(), levels }, partial })
 }
 
-/// Step at which refinement starts at an accuracy level, by `verlet` [s].
+/// Step with `verlet` at which refinement starts at an accuracy level [s].
 fn first_step(case: &Case, accuracy: Accuracy) -> f64 {
     ComputeSettings { method: Method::Verlet, accuracy, step: None }.first_step(case)
 }
 
 impl AccuracyTable {
-    /// The limit that is hardest to decide on by the first run at a level; `None` where that is not stable, or nothing moves.
+    /// The limit that is hardest to decide by the first run at a level; `None` if that run is not stable, or nothing moves.
     pub fn nearest_limit(&self, level: Accuracy, limits: &Limits) -> Option<NearestLimit> {
         let step = self.levels.iter().find(|row| row.level == level)?.step;
         let mut rows = self.rows.iter().filter(|row| row.method == Method::Verlet && row.step == step);
@@ -216,7 +216,7 @@ impl AccuracyTable {
         Some(NearestLimit { is_exceeded, ..nearest })
     }
 
-    /// The longest step of a method at which this step and all shorter steps are within a class; with its computing time.
+    /// The longest step of a method at which this step and all shorter steps are within a class, and its computing time.
     pub fn cheapest(&self, method: Method, class: ErrorClass) -> Option<(f64, Duration)> {
         let within = |row: &&StepRow| {
             let good = |m: &Measured| m.height_error <= class.height && m.force_error <= class.force;
@@ -227,7 +227,7 @@ impl AccuracyTable {
     }
 }
 
-/// Runs a shot; short runs are repeated, so that their least time means something. `None` where the method is not stable.
+/// Runs a shot. Short runs are repeated, so that their least time is meaningful. `None` if the method is not stable.
 fn run(
     case: &Case,
     shot: &Shot,

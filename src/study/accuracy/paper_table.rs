@@ -34,7 +34,8 @@ const fn row(step: f64, height: f64, force: f64, force_at_160_ms: f64) -> PaperR
     PaperRow { step, height, force, force_at_160_ms }
 }
 
-/// Table 1 computed by `method`, where the plan is the shelter of the paper: five tires of 280 kg over one hole.
+/// Table 1 computed by `method`; `None` if the plan is not the shelter of the paper (five tires of 280 kg over one hole), or a run
+/// fails.
 pub fn paper_table(case: &Case, method: Method) -> Option<Vec<PaperRow>> {
     let scene = case.scene();
     let single =

@@ -1,7 +1,7 @@
-//! The verdict on the shot as planned of one delay option, refined until the verdict is sure.
+//! The check of the planned shot of one delay option, refined until the verdict is sure.
 //!
-//! The option is run at a ladder of steps; each step is [`step_error::RATIO`] times finer than the one before. The finest run
-//! gives the values. The coarser runs give the errors. While the verdict is open, a finer run is added.
+//! The option runs at a ladder of steps. Each step is [`step_error::RATIO`] times finer than the one before. The finest run gives
+//! the values, and the coarser runs give the errors. While the verdict is open, a finer run is added.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -21,10 +21,10 @@ use crate::study::hole_places::count_under_no_tire;
 use crate::study::{Case, ComputeSettings};
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
-/// A shot as planned, checked by a ladder of runs.
+/// A planned shot, checked by a ladder of runs.
 #[derive(Clone, Debug)]
 pub struct CheckedShot {
-    /// Whether the launch velocity is an estimate that nobody observed: a judgement is then no pass.
+    /// Whether the launch velocity is an estimate that nobody observed. A judgement is then no pass.
     pub launch_is_estimated: bool,
     /// Pass, fail, or undecided at the finest step allowed.
     pub verdict: Verdict,
@@ -32,15 +32,15 @@ pub struct CheckedShot {
     pub reasons: Vec<ShotReason>,
     /// Greatest flight height of any tire [m], force of any cable [N], and drift of any tire at the end [m].
     pub estimates: PerQuantity<Estimate>,
-    /// Breaking force over greatest force; infinite where no cable pulls, and not a number where the force is not known.
+    /// Breaking force over greatest force; infinite if no cable pulls, and NaN if the force is unknown.
     pub safety_factor: f64,
-    /// Broken cables in order of time; empty where the plan lets no cable break.
+    /// Broken cables in order of time; empty if the plan lets no cable break.
     pub broken: Vec<BrokenCable>,
     /// Height and force over time.
     pub history: History,
     /// The cover over each hole as it fires.
     pub cover: Cover,
-    /// Method and accuracy that were asked for.
+    /// Requested method and accuracy.
     pub compute: ComputeSettings,
     /// Step of the run that gave the values [s].
     pub step: f64,
@@ -60,7 +60,7 @@ pub struct CheckedShot {
     pub total_steps: usize,
 }
 
-/// Position of a check: finished runs, and simulated time of the present run.
+/// Progress of a check: the number of finished runs, and the simulated time of the present run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckProgress {
     /// Number of finished runs.
@@ -69,8 +69,8 @@ pub struct CheckProgress {
     pub time: f64,
 }
 
-/// Factor on the error with which a verdict must still stand to be sure, and a pass to be one. The error itself holds in 19 of 20
-/// runs; a verdict must hold in more: with a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
+/// Factor on the error with which a verdict must still stand to be sure, and a pass to be a pass. The error itself holds in 19 of
+/// 20 runs, and a verdict must hold in more. With a factor of 2, 4 of 4,480 limits near true values were passed or failed wrongly.
 pub const SURE_ERROR_FACTOR: f64 = 3.0;
 
 impl CheckedShot {
@@ -79,14 +79,14 @@ impl CheckedShot {
         *self.estimates.get(quantity)
     }
 
-    /// The share of its limit that a quantity takes; `None` where it has none.
+    /// Share of its limit that a quantity takes; `None` if it has no limit.
     pub fn share_of_limit(&self, quantity: Quantity, limits: &Limits) -> Option<f64> {
         Some(self.get(quantity).value / limits.get(quantity)?)
     }
 }
 
-/// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger, and the energy balance closes for a
-/// pass; `residual` over the energy put in.
+/// Whether the verdict of the limits would stand with errors [`SURE_ERROR_FACTOR`] times larger. For a pass the energy balance must
+/// close, too; `residual` is over the energy put in.
 fn is_sure(estimates: &PerQuantity<Estimate>, residual: f64, limits: &Limits) -> bool {
     let verdict = |times: f64| {
         let each = with_limits(estimates, limits)
@@ -101,11 +101,11 @@ fn is_sure(estimates: &PerQuantity<Estimate>, residual: f64, limits: &Limits) ->
     }
 }
 
-/// Checks the shot as planned of one delay option. `watch` sees the progress and may stop the check.
+/// Checks the planned shot of one delay option. `watch` sees the progress and may stop the check.
 ///
 /// # Panics
 ///
-/// Where the plan has no delay option with the index `option`.
+/// If the plan has no delay option with the index `option`.
 pub fn check_as_planned(
     case: &Case,
     option: usize,
@@ -116,12 +116,12 @@ pub fn check_as_planned(
 }
 
 impl Case {
-    /// Checks the shot as planned of one delay option, which alone makes no shot safe: [`Case::judge_options`] also samples what
-    /// the plan does not know. [`check_as_planned`] is the same with a watcher.
+    /// Checks the planned shot of one delay option. The planned shot alone makes no shot safe: [`Case::judge_options`] also samples
+    /// the uncertainty. [`check_as_planned`] is the same with a watcher.
     ///
     /// # Panics
     ///
-    /// Where the plan has no delay option with the index `option`.
+    /// If the plan has no delay option with the index `option`.
     pub fn check_as_planned(
         &self,
         option: usize,
@@ -152,7 +152,7 @@ pub fn check_shot(
             let coarsest = &runs[error_runs(runs.len()).start];
             let pairs = runner.run_pairs(shot, coarsest.outcome.step, is_last)?;
             let Finding { found, is_sure } = checked_from_runs(shot, runs, &pairs, runner);
-            // Where a nearby shot has no result, nothing says that none differs.
+            // A nearby shot without a result may differ.
             Ok(Finding { found, is_sure: is_sure && pairs.len() == step_error::PAIRS as usize })
         },
     )
@@ -165,19 +165,19 @@ struct Run {
     wall: Duration,
 }
 
-/// Runs shots of a case, and counts what that costs.
+/// Runs shots of a case, and counts the cost.
 struct Runner<'r> {
     case: &'r Case,
     compute: &'r ComputeSettings,
     watch: &'r mut dyn FnMut(CheckProgress) -> ControlFlow<()>,
-    /// Runs so far, and their steps.
+    /// Number of runs so far, and number of their steps.
     runs: usize,
     steps: usize,
     begun: Instant,
 }
 
-/// Change of inputs of nearby shots at the step of the field level and above. At finer steps it falls with the square of the
-/// step, as the error does.
+/// Change of the inputs of nearby shots at the step of the field level and above. At finer steps the change falls with the square
+/// of the step, as the error does.
 const PAIR_CHANGE: f64 = 1e-3;
 
 impl Runner<'_> {
@@ -196,8 +196,8 @@ impl Runner<'_> {
         Ok(Run { outcome, cover: cover.cover(), wall: begun.elapsed() })
     }
 
-    /// Pairs of runs of nearby shots at `step` [s]; without the pairs of which a run fails, unless no finer step follows: then the check has
-    /// no result. None failed of 8,400 beside the 2,100 scenes of `calibration` at the draft level.
+    /// Pairs of runs of nearby shots at `step` [s]. A pair with a failed run is left out. But if no finer step follows, the check
+    /// then has no result. None of 8,400 runs failed beside the 2,100 scenes of `calibration` at the draft level.
     fn run_pairs(&mut self, shot: &Shot, step: f64, is_last: bool) -> Result<Vec<[Run; 2]>, RunError> {
         let field = ComputeSettings { accuracy: Accuracy::Field, step: None, ..*self.compute };
         let finer =
@@ -218,8 +218,8 @@ impl Runner<'_> {
     }
 }
 
-/// Checks a shot by a ladder of runs, of which the last gives the values, and by `pairs` of nearby shots at the step of the
-/// coarsest neighbour.
+/// Checks a shot by a ladder of runs and by `pairs` of nearby shots. The last run gives the values. The pairs ran at the step of
+/// the coarsest neighbor.
 fn checked_from_runs(
     shot: &Shot,
     runs: &[Run],

@@ -1,4 +1,4 @@
-//! Checks of many shots of one plan, of each of which a study keeps the summary.
+//! Checks of many shots of one plan. A study keeps only the summary of each.
 
 use super::check::check_shot;
 use super::shot_summary::ShotSummary;
@@ -19,7 +19,7 @@ pub fn check_summary(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, 
     )
 }
 
-/// Checks the shot of every job, like [`run_batch`]. A job whose run fails has the result [`ShotSummary::FAILED_RUN`]; where every run
+/// Checks the shot of every job, like [`run_batch`]. A job whose run fails has the result [`ShotSummary::FAILED_RUN`]. If every run
 /// fails, the study has no result.
 pub fn run_checks<J: Sync>(
     jobs: &[J],
@@ -39,7 +39,7 @@ pub fn run_checks<J: Sync>(
     Ok(done.into_iter().map(|result| result.map(unknown_if_failed)).collect())
 }
 
-/// Like [`run_checks`], for a part of the jobs of a study: all of them may fail.
+/// Like [`run_checks`], for a part of the jobs of a study: all of this part may fail.
 pub fn run_checks_or_failed<J: Sync>(
     jobs: &[J],
     control: &StudyControl,
@@ -48,7 +48,7 @@ pub fn run_checks_or_failed<J: Sync>(
     run_batch(jobs, control, |job| or_failed_run(work(job)))
 }
 
-/// A run that failed is a shot of which nothing is known.
+/// Turns a failed run into a shot of which nothing is known.
 pub fn or_failed_run(checked: Result<ShotSummary, NoResult>) -> Result<ShotSummary, NoResult> {
     match checked {
         Err(NoResult::Failed(_)) => Ok(ShotSummary::FAILED_RUN),

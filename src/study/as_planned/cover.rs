@@ -1,5 +1,5 @@
-//! The state of the cover over each hole as it fires: a tire that is in the air then, or no longer over its hole, still gets
-//! the whole launch in the model.
+//! The cover over each hole as it fires. In the model a tire gets the whole launch even if it is then in the air, or no longer over
+//! its hole.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +11,7 @@ use crate::verdict::Verdict;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
-/// Shift over the widest distance of tied tires from which a tire counts as no longer over its hole: another one
-/// is as near then.
+/// Shift over the widest distance of tied tires above which a tire counts as no longer over its hole: another tire is then as near.
 const ASIDE: f64 = 0.5;
 
 /// The cover over the holes of a shot, each at its firing time.
@@ -22,10 +21,10 @@ pub struct Cover {
     pub holes: usize,
     /// Number of holes whose tire is in the air or aside.
     pub uncovered: usize,
-    /// Number of holes over which no tire lies, neither their own nor another, or only one that stands high.
+    /// Number of holes over which no tire lies: neither their own nor another tire, or only a tire that stands high.
     #[serde(default)]
     pub under_no_tire: usize,
-    /// How near the holes came to lying under no tire, as [`uncovering`] says: that of the hole which came nearest.
+    /// How near the holes came to lying under no tire, as [`uncovering`] says. The hole that came nearest counts.
     #[serde(default)]
     pub uncovering: f64,
     /// Greatest height of a tire over a hole that fires [m].
@@ -35,17 +34,18 @@ pub struct Cover {
 }
 
 impl Cover {
-    /// The cover over no hole.
+    /// The cover of a shot without holes.
     pub const NONE: Self =
         Self { holes: 0, uncovered: 0, under_no_tire: 0, uncovering: 0.0, height: 0.0, shift: 0.0 };
 
-    /// The verdict of a run whose limits give this one: where a hole fires under no tire it does not pass.
+    /// The verdict of a run with this cover, whose limits give the verdict `of_limits`. If a hole fires under no tire, the run does
+    /// not pass.
     pub fn verdict(&self, of_limits: Verdict) -> Verdict {
         if self.under_no_tire > 0 { of_limits.max(Verdict::Undecided) } else { of_limits }
     }
 }
 
-/// Sees a run, and notes the cover over its holes.
+/// Watches a run, and records the cover over its holes.
 pub struct CoverRecorder<'s> {
     case: &'s Case,
     firings: &'s [Firing],
@@ -55,13 +55,13 @@ pub struct CoverRecorder<'s> {
 }
 
 impl<'s> CoverRecorder<'s> {
-    /// Watch of a run of `firings` at a `step` [s].
+    /// Recorder for a run of `firings` at a `step` [s].
     pub fn new(case: &'s Case, firings: &'s [Firing], step: f64) -> Self {
         let aside = ASIDE * case.plan.layout.widest_tie();
         Self { case, firings, step, aside, cover: Cover::NONE }
     }
 
-    /// Notes the tires over the holes that fire within the step that begins now.
+    /// Records the tires over the holes that fire within the step that begins now.
     pub fn observe(&mut self, motion: &dyn Motion) {
         let end = motion.time() + self.step;
         while let Some(firing) = self.firings.get(self.cover.holes).filter(|firing| firing.time < end) {
@@ -77,7 +77,7 @@ impl<'s> CoverRecorder<'s> {
         }
     }
 
-    /// What was seen.
+    /// The recorded cover.
     pub fn cover(&self) -> Cover {
         self.cover
     }

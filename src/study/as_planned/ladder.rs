@@ -1,4 +1,4 @@
-//! Runs at ever finer steps, until what they tell is sure.
+//! Runs at ever finer steps until the result is sure.
 
 use super::step_error;
 use crate::simulation::RunError;
@@ -6,21 +6,21 @@ use crate::simulation::RunError;
 /// Greatest number of steps below the first: the finest step is 64 times finer.
 const MOST_REFINEMENTS: i32 = 12;
 
-/// What the runs so far tell.
+/// Result of the runs so far.
 pub struct Finding<T> {
-    /// What they tell.
+    /// The result.
     pub found: T,
-    /// Whether it is sure, which ends the ladder.
+    /// Whether the result is sure. A sure result ends the ladder.
     pub is_sure: bool,
 }
 
-/// Runs a ladder of steps, from the coarsest to the finest, and returns the last finding; no step is run twice.
+/// Runs a ladder of steps, from the coarsest to the finest, and returns the last finding. No step runs twice.
 ///
-/// 1. The coarser neighbours of the step `first` [s] are run, then `first`, then finer steps.
-/// 2. Once there are two runs, `examine` is called after each. It gets all runs so far, and whether no finer run can follow; the
+/// 1. The coarser neighbors of the step `first` [s] run first, then `first`, then finer steps.
+/// 2. From the second run on, `examine` is called after each run. It gets all runs so far, and whether no finer run can follow. The
 ///    last run gives the values, the others give the errors.
-/// 3. Where `fixed`, the ladder ends at `first`. If every coarser neighbour failed, one finer run gives the error; it then stands
-///    before `first` among the runs, so that the values stay at `first`.
+/// 3. If `fixed`, the ladder ends at `first`. If every coarser neighbor failed, one finer run gives the error. It is put before
+///    `first`, so that the values stay at `first`.
 ///
 /// Both closures get the `runner`.
 pub fn run_ladder<C, R, T>(
@@ -43,10 +43,10 @@ pub fn run_ladder<C, R, T>(
     loop {
         runs.push(run(runner, rung(-finer))?);
         if runs.len() < 2 && fixed {
-            // The finer run tells the error; the values stay at the step asked for.
+            // The finer run gives the error. The values stay at the requested step.
             runs.insert(0, run(runner, rung(-1))?);
         }
-        // A single run has no error: its neighbour is the next finer run.
+        // A single run has no error. Its neighbor is the next finer run.
         if runs.len() >= 2 {
             let is_last = fixed || finer == MOST_REFINEMENTS;
             let Finding { found, is_sure } = examine(runner, &runs, is_last)?;
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
     use crate::simulation::Iteration;
 
-    /// Steps that the ladder asks for where steps above `coarsest` fail, and the step that gives the values.
+    /// Steps that the ladder runs if steps above `coarsest` fail, and the step that gives the values.
     fn ran(coarsest: f64, fixed: bool, sure_at: f64) -> (Vec<f64>, f64) {
         let mut asked = Vec::new();
         let run = |asked: &mut Vec<f64>, step: f64| {

@@ -1,4 +1,4 @@
-//! How much faster than planned the tires may leave before the shot as planned no longer passes.
+//! How much faster than planned the tires may leave before the planned shot no longer passes.
 
 use super::quick_check::quick_or_whole_check;
 use crate::scene::Shot;
@@ -8,24 +8,24 @@ use crate::verdict::Verdict;
 /// How much faster all launches may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LaunchMargin {
-    /// The shot does not pass as planned.
+    /// The planned shot does not pass.
     NotPassing,
-    /// The shot passes up to `rise` above the planned launch velocities; at 1 % more the verdict is `above`.
+    /// The shot passes up to `rise` above the planned launch velocities. At 1 % more the verdict is `above`.
     UpTo {
-        /// Share of the planned launch velocities.
+        /// Rise, as a share of the planned launch velocities.
         rise: f64,
-        /// Fail or undecided.
+        /// Verdict at 1 % more: fail or undecided.
         above: Verdict,
     },
-    /// The shot passes up to [`MOST_PERCENT`] more.
+    /// The shot passes at every rise that was tried, [`MOST_PERCENT`] at most.
     BeyondTried,
 }
 
-/// Rise of all launches that ends a thin pass, at most: a filmed launch is known no better.
+/// Greatest launch margin of a thin pass, as a share of the planned launch velocities. A filmed launch is known no better.
 pub const THIN_LAUNCH: f64 = 0.05;
 
 impl LaunchMargin {
-    /// By how much all launches may rise, as a share of those planned.
+    /// Greatest rise of all launches, as a share of the planned launch velocities.
     pub fn rise(self) -> f64 {
         match self {
             Self::NotPassing => 0.0,
@@ -34,7 +34,7 @@ impl LaunchMargin {
         }
     }
 
-    /// Whether a pass is thin by it.
+    /// Whether this margin makes a pass thin.
     pub fn is_thin(self) -> bool {
         self.rise() <= THIN_LAUNCH
     }
@@ -43,7 +43,7 @@ impl LaunchMargin {
 /// Greatest rise of launches tried [%].
 const MOST_PERCENT: usize = 100;
 
-/// Raises the launches of a shot by 1 % at a time until it does not pass; `as_planned` is its verdict as planned.
+/// Raises the launches of a shot by 1 % at a time until it does not pass. `as_planned` is the verdict of the planned shot.
 pub fn launch_margin(
     context: &Context<'_>,
     shot: &Shot,
@@ -52,7 +52,7 @@ pub fn launch_margin(
     margin_within(context, shot, as_planned, MOST_PERCENT)
 }
 
-/// The same, looked for no further than where a pass is no longer thin.
+/// The same, but it stops where a pass is no longer thin.
 pub fn thin_launch_margin(
     context: &Context<'_>,
     shot: &Shot,

@@ -6,13 +6,13 @@ use super::step_error::{NEIGHBOURS, estimate, widened};
 use crate::outcome::{History, Outcome, Peak, slice_at, slices};
 use crate::verdict::{Estimate, PerQuantity};
 
-/// Number of equal parts of a run in which rivals of its greatest value are looked for.
+/// Number of equal parts of a run in which rivals of its greatest value are searched.
 const SLICES: usize = 32;
 
-/// Height, force and drift of the last of `runs`, which stand in order from the coarsest step to the finest; errors of height and
+/// Height, force and drift of the last of `runs`. The runs are sorted from the coarsest step to the finest. Errors of height and
 /// force reach up to rivals of the greatest value.
 ///
-/// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots, run at the coarsest step of those.
+/// The errors come from the runs of [`error_runs`], and from `pairs` of nearby shots that run at the coarsest step of those runs.
 pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
@@ -24,7 +24,7 @@ pub fn peaks_with_rivals(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuant
     }
 }
 
-/// The same without regard to rivals.
+/// The same without rivals.
 fn peaks(runs: &[&Outcome], pairs: &[[&Outcome; 2]]) -> PerQuantity<Estimate> {
     let near = &runs[error_runs(runs.len())];
     let last = runs[runs.len() - 1];
@@ -47,13 +47,14 @@ pub fn error_runs(count: usize) -> Range<usize> {
     count.saturating_sub(1 + NEIGHBOURS)..count - 1
 }
 
-/// A greatest value whose error reaches up to its rivals: peaks at other times that are smaller in this run, and that may
-/// be greater within an error of their own.
+/// A greatest value whose error reaches up to its rivals. Rivals are peaks at other times. They are smaller in this run, but may be
+/// greater within their own error.
 ///
-/// Parts beside that of the greatest value hold no rival: its own flank reaches into them, and which part a peak is in differs from step to
-/// step. With them the error of the force more than doubles in 16 % of the 2,100 scenes of `calibration` at the draft level, and three
-/// more of these forces and three more heights lie within. Without them no force is greater than told by more than three times its error,
-/// with which a pass must stand, and one height is, by 0.01 % of itself.
+/// The parts next to the part of the greatest value hold no rival: its own flank reaches into them, and the part of a peak differs
+/// from step to step. If they counted, the error of the force would more than double in 16 % of the 2,100 scenes of `calibration`
+/// at the draft level, and only three more forces and three more heights would lie within their error. Without them, no true force
+/// exceeds the reported force by more than three times its error, with which a pass must stand. One height does, by 0.01 % of
+/// itself.
 fn beside_rivals(
     near: &[&Outcome],
     last: &Outcome,

@@ -1,10 +1,10 @@
-//! The verdict on a shot that is one of thousands: run at coarse steps first, and no finer than its verdict needs.
+//! Quick check of a shot that is one of thousands: it runs at coarse steps first, and no finer than its verdict needs.
 //!
 //! A check begins at the step of the accuracy level and refines until the verdict is sure. A quick check begins at 8 times the step
-//! of the field level, refines by [`step_error::RATIO`] until it has seen enough, and ends at the latest at the step at which a
-//! check begins. Unlike a check it does not look at nearby shots, and tells greater errors instead; of a motion that nearby steps show
-//! alike by chance they may leave out the truth. Where the step is fixed, or too few of the coarse runs succeed, the shot is checked
-//! instead.
+//! of the field level, and refines by [`step_error::RATIO`] until it has seen enough. It ends at the latest at the step at which a
+//! check begins. A quick check does not look at nearby shots as a check does. It reports greater errors instead. If nearby steps
+//! agree by chance, even these errors may leave out the truth. If the step is fixed, or too few of the coarse runs succeed, the
+//! shot is checked instead.
 
 use super::check_many::{check_summary, or_failed_run};
 use super::cover::{Cover, CoverRecorder};
@@ -18,23 +18,23 @@ use crate::simulation::Motion;
 use crate::study::{Case, ComputeSettings, Context, Fingerprint, NoResult, ShotSummary};
 use crate::verdict::{Estimate, PerQuantity, Verdict};
 
-/// Number of steps above the first step of `field`: the coarsest is 8 times that, with `verlet` at most 0.8 of the critical
-/// step.
+/// Number of steps above the first step of `field`. The coarsest step is 8 times that, with `verlet` at most 0.8 of the critical step.
 const COARSER: i32 = 6;
-/// The error of a quick check over that which a check would tell by the same runs: at coarse steps the values do not yet differ as
-/// line 2 of [`step_error`] says. With it, [`LEAST_ERROR`] and rivals, 0.5 % of the true heights and 2 % of the forces are left out
-/// at 400 intervals up to 1.2 s of three rows; with it alone 4 and 15 %. The test `errors_of_quick_checks_hold` counts them.
+/// Error of a quick check, over the error that a check would report for the same runs. At coarse steps the values do not yet differ
+/// as line 2 of [`step_error`] says. With this factor, [`LEAST_ERROR`] and rivals, the errors leave out 0.5 % of the true heights
+/// and 2 % of the forces, at 400 intervals up to 1.2 s of three rows. With the factor alone they leave out 4 and 15 %. The test
+/// `errors_of_quick_checks_hold` counts them.
 const ERROR_FACTOR: f64 = 2.5;
-/// Least error over the value at half the coarsest step, where a pass may end first: coarse runs may agree by chance. The more runs
-/// agree, the less this is likely: half the step leaves a sixteenth.
+/// Least error over the value at half the coarsest step, where a pass may end first. Coarse runs may agree by chance. This is less
+/// likely the more runs agree: half the step leaves a sixteenth.
 const LEAST_ERROR: f64 = 0.02;
-/// Factor on the error of a quick check with which a pass must still stand: 4.5 times the error that a check would tell by the same
-/// runs, half as much again as a check itself asks, since nothing looks at such a shot again.
+/// Factor on the error of a quick check with which a pass must still stand. This is 4.5 times the error that a check would report
+/// for the same runs, half as much again as a check requires, because nothing looks at such a shot again.
 const SURE_PASS: f64 = 1.8;
 /// Least number of runs behind a pass: two may agree by luck.
 const RUNS_OF_PASS: usize = 3;
-/// Factor on the error of a quick check with which a fail must still stand: 3 times the error that a check would tell by the same
-/// runs, as much as a check asks.
+/// Factor on the error of a quick check with which a fail must still stand. This is 3 times the error that a check would report for
+/// the same runs, as much as a check requires.
 const SURE_FAIL: f64 = 1.2;
 
 /// Checks a shot at ever finer steps until it lies surely on one side of its limits.
@@ -47,8 +47,8 @@ pub fn quick_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, No
     )
 }
 
-/// Checks a shot quickly, and wholly where that leaves it open: what is open only because steps are coarse is no property of the shot.
-/// A shot whose runs fail is one of which nothing is known.
+/// Checks a shot quickly. If the quick check leaves the shot open, a full check follows: a shot must not stay open only because
+/// steps are coarse. If its runs fail, nothing is known of the shot.
 pub fn quick_or_whole_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSummary, NoResult> {
     match or_failed_run(quick_check(context, shot))? {
         quick if quick.verdict != Verdict::Undecided => Ok(quick),
@@ -56,7 +56,7 @@ pub fn quick_or_whole_check(context: &Context<'_>, shot: &Shot) -> Result<ShotSu
     }
 }
 
-/// Checks a shot at ever finer steps until `enough`, which gets the last run checked and the number of runs, returns true.
+/// Checks a shot at ever finer steps until `enough` returns true. `enough` gets the summary of the last run and the number of runs.
 pub fn quick_check_until(
     context: &Context<'_>,
     shot: &Shot,
@@ -95,8 +95,8 @@ pub fn quick_check_until(
     }
 }
 
-/// The last run checked, with the runs before as its neighbours and the cover it saw: with the errors of its step, and with unknown
-/// errors where a value may still grow after the end.
+/// Two summaries of the last run, whose neighbors are the runs before. The first has the errors of its step. The second has the
+/// verdict of the cover, too, and unknown errors where a value may still grow after the end.
 fn summaries_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -> [ShotSummary; 2] {
     let all: Vec<&Outcome> = runs.iter().collect();
     let (last, by_runs) = (all[all.len() - 1], peaks_with_rivals(&all, &[]));
@@ -108,7 +108,7 @@ fn summaries_of_runs(case: &Case, shot: &Shot, runs: &[Outcome], cover: Cover) -
     let reasons = find_reasons_as_planned(case, shot, last, &estimates, SURE_PASS);
     let verdict = Verdict::worst(reasons.iter().map(ShotReason::verdict));
     let known = with_unknown_errors(shot, last, &estimates);
-    // What no finer step changes does not ask for one.
+    // A finer step changes neither the cover nor the unknown errors. So only the first summary decides on one.
     [(verdict, estimates), (cover.verdict(verdict), known)]
         .map(|(verdict, estimates)| ShotSummary::new(verdict, &estimates, cover))
 }

@@ -6,14 +6,14 @@ use crate::study::Case;
 use crate::study::eight_ms::WithinEightMs;
 use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 
-/// Greatest energy residual of a run that may pass, over the energy put in. A greater one says that the step is too long for
-/// the motion, whatever neighbouring steps say.
+/// Greatest energy residual of a run that may pass, over the energy put in. A greater residual shows that the step is too long for
+/// the motion, whatever neighboring steps show.
 const MOST_RESIDUAL: f64 = 0.01;
 
 /// Why a shot does not pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShotReason {
-    /// A value is past its limit, or too near to the limit to tell.
+    /// A value exceeds its limit, or is too near to the limit to decide.
     Limit {
         /// The quantity.
         quantity: Quantity,
@@ -24,7 +24,7 @@ pub enum ShotReason {
         /// The limit [SI unit of the quantity].
         limit: f64,
     },
-    /// A value keeps its limit with its error, and would not with as many times its error as a pass must stand with.
+    /// A value keeps its limit with its error, but not with as many errors as a pass must stand with.
     NotSure {
         /// The quantity.
         quantity: Quantity,
@@ -33,7 +33,7 @@ pub enum ShotReason {
         /// The limit [SI unit of the quantity].
         limit: f64,
     },
-    /// Cables break; their number.
+    /// This number of cables breaks.
     Broken(usize),
     /// More holes fire within 8 ms than the plan allows.
     HolesTogether {
@@ -49,11 +49,12 @@ pub enum ShotReason {
         /// The limit [kg].
         limit: f64,
     },
-    /// So many holes lie under no tire: the model gives the nearest one the launch, and knows nothing of what the hole throws.
+    /// This number of holes lies under no tire. The model gives the launch to the nearest tire, and knows nothing of what the hole
+    /// throws.
     UnderNoTire(usize),
-    /// So many holes fire where no tire lies any more: earlier holes moved aside the tires that lay over them, or threw them up.
+    /// This number of holes fires where no tire lies any more: earlier holes moved their tires aside, or threw them up.
     TiresMovedAway(usize),
-    /// The energy residual over the energy put in is greater than [`MOST_RESIDUAL`].
+    /// The energy residual over the energy put in. It is greater than [`MOST_RESIDUAL`].
     EnergyResidual(f64),
     /// The run ends too early for a verdict.
     EndsEarly {
@@ -84,18 +85,18 @@ impl ShotReason {
 /// What a run that ends too early leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EarlyEnd {
-    /// The last hole fires at this time [s].
+    /// The run ends before the last hole fires at this time [s].
     HolesUnfired(f64),
     /// Tires are in the air: they rise, or will pull at cables as they fall.
     TiresInAir,
     /// The force is greatest at the very end.
     ForceGrowing,
-    /// Tires move on, and may pull harder later.
+    /// Tires still move, and may pull harder later.
     TiresMoving,
 }
 
 impl EarlyEnd {
-    /// Whether a quantity may still grow after the end: nothing is known of its error then.
+    /// Whether a quantity may still grow after the end. Its error is then unknown.
     fn may_grow(self, quantity: Quantity) -> bool {
         match self {
             EarlyEnd::HolesUnfired(_) | EarlyEnd::TiresInAir => true,
@@ -105,7 +106,7 @@ impl EarlyEnd {
     }
 }
 
-/// What the run of a shot leaves open, where the run ends too early for a verdict.
+/// What the run of a shot leaves open if it ends too early for a verdict; `None` if it ends at rest.
 fn early_end(shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if outcome.end.reason == EndReason::AtRest {
         return None;
@@ -114,19 +115,19 @@ fn early_end(shot: &Shot, outcome: &Outcome) -> Option<EarlyEnd> {
     if last >= outcome.end.time {
         return Some(EarlyEnd::HolesUnfired(last));
     }
-    // A tire whose push has just begun rises, though it may be too low to count as in the air.
+    // A tire whose push has just begun will rise, though it may be too low to count as in the air.
     let is_pushed = shot.firings.iter().any(|firing| firing.time + firing.push_time >= outcome.end.time);
     if outcome.tires_in_air || is_pushed {
         return Some(EarlyEnd::TiresInAir);
     }
-    // The greatest of all steps is the last one, or the one before.
+    // The greatest force is at one of the last three steps.
     if outcome.force.value > 0.0 && outcome.force.time > outcome.end.time - 2.5 * outcome.step {
         return Some(EarlyEnd::ForceGrowing);
     }
     Some(EarlyEnd::TiresMoving)
 }
 
-/// Why a shot as planned does not pass, by one of its runs and by what fires together in it; see [`find_reasons`].
+/// Why a planned shot does not pass, by one of its runs and by what fires together in it. See [`find_reasons`].
 pub fn find_reasons_as_planned(
     case: &Case,
     shot: &Shot,
@@ -143,7 +144,7 @@ pub fn exceeds_together(case: &Case, shot: &Shot) -> bool {
     too_much_together(case, WithinEightMs::of(case, shot)).next().is_some()
 }
 
-/// Which limits are exceeded by what fires together.
+/// The limits that what fires together exceeds.
 fn too_much_together(
     case: &Case,
     WithinEightMs { holes, charge }: WithinEightMs,
@@ -155,8 +156,8 @@ fn too_much_together(
     holes.into_iter().chain(heaviest.map(|(charge, limit)| ShotReason::ChargeTogether { charge, limit }))
 }
 
-/// Height, force and drift of a run of a shot: where one may still grow after the end of the run, its error is infinite, because it
-/// is not known.
+/// Height, force and drift of a run of a shot. If a value may still grow after the end of the run, its error is unknown and so
+/// infinite.
 pub fn with_unknown_errors(
     shot: &Shot,
     outcome: &Outcome,
@@ -170,8 +171,8 @@ pub fn with_unknown_errors(
     })
 }
 
-/// Why a run of a shot does not pass, given its height, force and drift with the errors of their steps; empty for a pass, which must
-/// stand with `errors_of_pass` times each error.
+/// Why a run of a shot does not pass; empty for a pass. `estimates` are its height, force and drift with the errors of their steps.
+/// A pass must stand with `errors_of_pass` times each error.
 pub fn find_reasons(
     case: &Case,
     shot: &Shot,
@@ -184,7 +185,7 @@ pub fn find_reasons(
         let (verdict, told) = (estimate.compare_with(limit), *told.get(quantity));
         match verdict {
             Verdict::Fail => Some(ShotReason::Limit { quantity, verdict, estimate: told, limit }),
-            // Of a value that may still grow the reason is the early end.
+            // If a value may still grow, the early end is the reason.
             _ if told.error.is_infinite() => None,
             Verdict::Undecided => Some(ShotReason::Limit { quantity, verdict, estimate, limit }),
             Verdict::Pass if estimate.times_error(errors_of_pass).compare_with(limit) != Verdict::Pass => {
@@ -201,12 +202,12 @@ pub fn find_reasons(
     limits.chain(broken).chain(residual).chain(early).collect()
 }
 
-/// Whether the energy balance of a run closes well enough for a pass; `residual` over the energy put in.
+/// Whether the energy balance of a run closes well enough for a pass. `residual` is over the energy put in.
 pub(in crate::study) fn energy_balance_closes(residual: f64) -> bool {
     residual <= MOST_RESIDUAL
 }
 
-/// The quantities that have a limit, each with its estimate and its limit.
+/// The quantities with a limit, each with its estimate and its limit.
 pub(in crate::study) fn with_limits(
     estimates: &PerQuantity<Estimate>,
     limits: &Limits,
@@ -275,7 +276,7 @@ pub(in crate::study) mod tests {
         assert_eq!(grow(EarlyEnd::TiresMoving), [false, true, true]);
     }
 
-    /// A height of 1.5, 1.9 or 2.5 m ± 0.25 m at a limit of 2 m; broken cables; an energy balance of 1 % or 2 %.
+    /// A height of 1.5, 1.9 or 2.5 m ± 0.25 m at a limit of 2 m; broken cables; an energy residual of 1 % or 2 %.
     #[test]
     fn each_reason_stands_where_it_keeps_a_run_from_passing() {
         let case = case();
@@ -292,7 +293,7 @@ pub(in crate::study) mod tests {
         assert_eq!(told(&outcome(), 1.5, 3.0), [not_sure]);
         assert_eq!(told(&outcome(), 1.9, 1.0), [over(Verdict::Undecided, height(1.9))]);
         assert_eq!(told(&outcome(), 2.5, 1.0), [over(Verdict::Fail, height(2.5))]);
-        // Of a height that may still grow the early end is the reason, unless it is past the limit already.
+        // For a height that may still grow, the early end is the reason, unless the height exceeds the limit already.
         let in_air = Outcome { tires_in_air: true, ..ended_early() };
         let end = case.plan.simulation.duration_s.unwrap_or(1.0);
         let early = ShotReason::EndsEarly { end, open: EarlyEnd::TiresInAir };

@@ -12,7 +12,7 @@ pub struct ValueWithError {
     /// The value.
     #[serde(deserialize_with = "or_infinite")]
     pub value: f64,
-    /// The error; infinite where it is not known.
+    /// The error; infinite if it is unknown.
     #[serde(deserialize_with = "or_infinite")]
     pub error: f64,
 }
@@ -62,12 +62,12 @@ impl ShotSummary {
         Self::new(checked.verdict, &checked.estimates, checked.cover)
     }
 
-    /// A verdict with what it is about, and the cover.
+    /// The summary of a verdict, its values and the cover.
     pub fn new(verdict: Verdict, estimates: &PerQuantity<Estimate>, cover: Cover) -> Self {
         Self { verdict, values: estimates.map(|&estimate| estimate.into()), cover }
     }
 
-    /// The same shot with `times` every error added to its value, and no error left; ±∞ where the error is not known.
+    /// The same shot with `times` every error added to its value, and no error left; ±∞ if the error is unknown.
     pub fn with_errors(&self, times: f64) -> Self {
         let add = |&ValueWithError { value, error }: &ValueWithError| {
             let more = times * error;
@@ -76,7 +76,7 @@ impl ShotSummary {
         Self { values: self.values.map(add), ..*self }
     }
 
-    /// The same shot without errors that are not known, because the run ended early: what it has shown until then.
+    /// The same shot with unknown errors set to 0: the values that a run with an early end has shown until then.
     pub fn as_far_as_shown(&self) -> Self {
         let shown =
             |quantity: &ValueWithError| match quantity.value.is_finite() && quantity.error.is_infinite() {
@@ -86,7 +86,7 @@ impl ShotSummary {
         Self { values: self.values.map(shown), ..*self }
     }
 
-    /// Utilization: the greatest value over its limit; above 1 the shot fails.
+    /// Utilization: the greatest value over its limit. Above 1 the shot fails.
     pub fn utilization(&self, limits: &Limits) -> f64 {
         limits.utilization(|quantity| self.get(quantity).value)
     }

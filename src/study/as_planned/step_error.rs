@@ -1,48 +1,50 @@
-//! The error of a value computed at one step, estimated from runs of the same shot at neighbouring steps.
+//! Error of a value computed at one step, estimated from runs of the same shot at neighboring steps.
 //!
-//! 1. Symbols: h the step, v the value at h, vⱼ the value at the neighbouring step rⱼ h.
+//! 1. Symbols: h is the step, v is the value at h, vⱼ is the value at the neighboring step rⱼ h.
 //! 2. The method is of second order: the run at r h differs from the run at h by (r² − 1) times the error at h.
-//! 3. So each neighbour j gives an estimate of the error at h: sⱼ = (vⱼ − v) / (rⱼ² − 1).
+//! 3. So each neighbor j gives an estimate of the error at h: sⱼ = (vⱼ − v) / (rⱼ² − 1).
 //! 4. The reported error is MARGIN · max |sⱼ|.
 //!
-//! Where the motion is smooth in the step, the estimates agree. Where tires land and are launched anew, or cables go slack
-//! and snap, the value jumps between nearby steps, and the estimates differ. The largest estimate counts, so two runs that
-//! agree by luck are not believed.
+//! If the motion is smooth in the step, the estimates agree. If tires land and are launched anew, or cables go slack and snap, the
+//! value jumps between nearby steps, and the estimates differ. The largest estimate counts. So two runs that agree by luck are not
+//! believed.
 //!
-//! All steps of a ladder may miss the same event, and agree on a wrong value. Nearby shots show this: pairs of shots whose inputs
-//! are changed a little to both sides ([`Shot::nearby_pair`](crate::scene::Shot::nearby_pair)), run at the step of the coarsest
-//! neighbour. A value that depends smoothly on the inputs lies in the middle of each pair: |v₊ + v₋ − 2v| is of second order in
-//! the change. Where it is more than [`FAR_ERROR_FACTOR`] times the error, an event is near, and the disagreement is the error.
+//! All steps of a ladder may miss the same event and agree on a wrong value. Nearby shots show this. They are pairs of shots whose
+//! inputs are changed a little to both sides ([`Shot::nearby_pair`](crate::scene::Shot::nearby_pair)), and they run at the step of
+//! the coarsest neighbor. A value that depends smoothly on the inputs lies in the middle of each pair: |v₊ + v₋ − 2v| is of second
+//! order in the change. If this disagreement is more than [`FAR_ERROR_FACTOR`] times the error, an event is near, and the
+//! disagreement becomes the error.
 //!
-//! A greatest value has rivals: peaks at other times. Where a rival reaches above it within the rival's own error, the greatest
-//! value is uncertain up to there; `study::as_planned::peaks` sees to this.
+//! A greatest value has rivals: peaks at other times. If a rival reaches above the greatest value within the rival's own error, the
+//! greatest value is uncertain up to there. `study::as_planned::peaks` takes care of this.
 //!
 //! MARGIN and FAR_ERROR_FACTOR were fitted on 1,680 random scenes of 14 regimes. `cargo bench --bench calibration` measures on
-//! other scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the
-//! time integration alone: not the model, and not the numbers of the plan.
+//! other scenes how often the true error is within the reported error, by level, quantity and regime. The estimate covers the time
+//! integration alone: not the model, and not the numbers of the plan.
 
-/// Ratio of neighbouring steps: line 3 then divides by 1 for the next one, so that the difference is the error itself.
+/// Ratio of neighboring steps. Line 3 divides by 1 for the next step, so the difference is the error itself.
 pub const RATIO: f64 = std::f64::consts::SQRT_2;
-/// Number of neighbours wanted beside the run itself: the coarsest has four times the step, and sixteen times the error.
+/// Number of neighbors beside the run itself. The coarsest has four times the step and sixteen times the error.
 pub const NEIGHBOURS: usize = 4;
-/// Reported error over the largest estimate. On the scenes of the fit the lowest coverage of any level and quantity is 94.3 % with
-/// 2.0, 91.2 % with 1.6, and 96.4 % with 2.5, whose errors are 5.6 instead of 4.5 times the true ones (`benches/RESULTS.md`).
+/// Reported error over the largest estimate. On the scenes of the fit, the lowest coverage of any level and quantity is 94.3 % with
+/// 2.0, 91.2 % with 1.6, and 96.4 % with 2.5. But with 2.5 the errors are 5.6 instead of 4.5 times the true errors
+/// (`benches/RESULTS.md`).
 const MARGIN: f64 = 2.0;
 
-/// Number of pairs of nearby shots: with two the lowest coverage rises from 94.3 to 96.4 %.
+/// Number of pairs of nearby shots. With two pairs the lowest coverage rises from 94.3 to 96.4 %.
 pub const PAIRS: u64 = 2;
-/// Disagreement of nearby shots over the error, above which the disagreement is the error; in four of five scenes none is.
+/// Disagreement of nearby shots over the error, above which the disagreement becomes the error. In four of five scenes it never does.
 const FAR_ERROR_FACTOR: f64 = 3.0;
 
-/// Error of a value, given its `error` from neighbouring steps and its values in pairs of nearby shots, `[v₊, v₋]`, beside
-/// the value `between` of the shot itself at the same step.
+/// Error of a value, from its `error` by neighboring steps and its values `[v₊, v₋]` in pairs of nearby shots. `between` is the
+/// value of the shot itself at the step of the pairs.
 pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2]>) -> f64 {
     let disagreements = pairs.into_iter().map(|[more, less]| (more + less - 2.0 * between).abs());
     let greatest = disagreements.fold(0.0, f64::max);
     if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbours; 0 without neighbours.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbors; 0 without neighbors.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;
@@ -66,7 +68,7 @@ mod tests {
 
     #[test]
     fn runs_that_agree_by_luck_are_not_believed() {
-        // Peak force in kN at steps of 1, 2, 4 ms … of a long delay: the first two agree, the converged value is 35.7.
+        // Peak force in kN at steps of 1, √2, 2 ms … of a long delay: the first two agree, the converged value is 35.7.
         let values = [31.03, 31.61, 38.26, 39.5, 40.68];
         let steps = (0..5).map(|n| RATIO.powi(n));
         let error = estimate(1.0, values[0], steps.zip(values).skip(1));
@@ -78,7 +80,7 @@ mod tests {
         let smooth = |launch: f64| launch * launch / 19.62;
         let pair = |peak: fn(f64) -> f64| [peak(6.006), peak(5.994)];
         assert_eq!(widened(1e-5, smooth(6.0), [pair(|launch| launch * launch / 19.62)]), 1e-5);
-        // Faster than 6 m/s the tire is caught by a cable.
+        // Above 6 m/s a cable catches the tire.
         let caught = |launch: f64| if launch > 6.0 { 1.5 } else { launch * launch / 19.62 };
         let error = widened(1e-5, caught(6.0), [pair(caught)]);
         assert!(error > 0.3, "{error}");

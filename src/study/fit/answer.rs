@@ -1,4 +1,4 @@
-//! What a fit finds: estimates, and what speaks for and against them.
+//! Result of a fit: estimates, and the evidence for and against them.
 
 use super::between_shots::BetweenShots;
 use super::determined::NotDetermined;
@@ -10,47 +10,47 @@ use crate::plan::Uncertainty;
 use crate::plan::observations::Observation;
 use crate::plan::write_fit::{EstimateToWrite, FitToWrite, LaunchUncertainty};
 
-/// What a fit finds.
+/// Result of a fit.
 #[derive(Clone, Debug)]
 pub enum FitResult {
     /// Estimates.
     Fitted(Fit),
     /// The observations do not determine some of the unknowns.
     NotDetermined {
-        /// Which, and what would.
+        /// The parameters that are not determined, and an observation that would determine them.
         refused: NotDetermined,
-        /// The observations, in the order of their options.
+        /// The observations, sorted by option.
         observed: Vec<Observation>,
-        /// What the plan as it is says of each observation.
+        /// Prediction of the unchanged plan for each observation.
         predictions: Vec<Prediction>,
     },
-    /// The plan says that an unknown is known exactly.
+    /// The plan states this unknown as exact.
     KnownExactly(Unknown),
-    /// The method of the plan has no such effect.
+    /// The method of the plan does not model this unknown.
     NotInMethod(Unknown),
 }
 
-/// Estimates and what speaks for and against them.
+/// Estimates, and the evidence for and against them.
 #[derive(Clone, Debug, Default)]
 pub struct Fit {
     /// Separate answers of nearly equal misfit, the best first; never empty.
     pub answers: Vec<Answer>,
-    /// The observations, in the order of their options.
+    /// The observations, sorted by option.
     pub observed: Vec<Observation>,
     /// Index of the file of each observation.
     pub file: Vec<usize>,
-    /// What the plan as it is says of each observation.
+    /// Prediction of the unchanged plan for each observation.
     pub predictions: Vec<Prediction>,
-    /// How far launch velocities were taken to differ from shot to shot; `None` where all but the unknowns was taken for exact.
+    /// Scatter of launch velocities between shots that the fit took; `None` if everything but the unknowns counts as exact.
     pub between_shots: Option<BetweenShots>,
-    /// How well launches are known after the fit; `None` where none were estimated.
+    /// Uncertainty of launches after the fit; `None` if no launch was estimated.
     pub launches: Option<LaunchUncertainty>,
-    /// What to observe next; `None` without samples, and where the estimates do not explain what was seen.
+    /// What to observe next; `None` without samples, or if the estimates do not explain the observations.
     pub next: Option<WhatNext>,
 }
 
 impl Fit {
-    /// The best answer as a plan writes it.
+    /// The best answer, in the form that is written into a plan.
     pub fn to_write(&self) -> FitToWrite {
         let to_write = |estimate: &FittedParameter| EstimateToWrite {
             unknown: estimate.parameter.unknown,
@@ -68,17 +68,17 @@ impl Fit {
 /// One set of estimates.
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
-    /// One for each parameter.
+    /// One estimate per parameter.
     pub estimates: Vec<FittedParameter>,
     /// Correlation of the estimates (`n_parameters` × `n_parameters`).
     pub correlation: Vec<Vec<f64>>,
-    /// One for each observation.
+    /// One residual per observation.
     pub residuals: Vec<Residual>,
-    /// Sum of the squares of the independent residuals, with those of what the plan knew of the parameters.
+    /// Sum of squares of the independent residuals, including the residuals of the priors.
     pub chi_square: f64,
-    /// Whether the estimates have settled; if not, another round could move them.
+    /// Whether the estimates are final; if not, another round could move them.
     pub is_settled: bool,
-    /// Its degrees of freedom; 0 where there are as many parameters as observations.
+    /// Degrees of freedom of `chi_square`; 0 if there are no more observations and priors than parameters.
     pub freedom: usize,
 }
 
@@ -89,43 +89,43 @@ pub struct FittedParameter {
     pub parameter: Parameter,
     /// The estimate.
     pub value: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the estimate.
     pub sd: f64,
-    /// The number of the plan; `None` for ends that are stiff.
+    /// The number in the plan; `None` for ends that are stiff.
     pub was: Option<f64>,
-    /// How far the estimate lies from what `[uncertainty]` states, in standard deviations of that; `None` where it states nothing.
+    /// Distance of the estimate from the mean that `[uncertainty]` states, in its standard deviations; `None` if it states none.
     pub from_stated: Option<f64>,
     /// Whether the estimate lies at an end of its plausible range.
     pub is_at_end: bool,
 }
 
-/// How an observation lies beside the shot of the estimates.
+/// Difference between an observation and its prediction by the estimates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// The predicted value, on average over what scatters; not a number where the tire never lifts, or never lands.
+    /// The predicted value, averaged over the scatter; NaN if the tire never lifts or never lands.
     pub predicted: f64,
-    /// Standard deviation of the observation about its prediction: stated, of computing, of the scatter of the plan.
+    /// Standard deviation of the observation about its prediction, from the stated error, the computation, and the scatter in the plan.
     pub sd: f64,
-    /// Observed less predicted, in these standard deviations.
+    /// Observed value minus predicted value, in these standard deviations.
     pub deviation: f64,
     /// Error of the time integration of the prediction.
     pub error: f64,
 }
 
-/// Residual from which an observation is suspicious [standard deviations]: chance alone makes 0.3 % of them so large.
+/// Residual above which an observation is suspicious [standard deviations]. By chance alone, 0.3 % of the residuals are so large.
 const SUSPICIOUS: f64 = 3.0;
-/// Standard normal deviate of a sum of squares that is too great: with a probability of 0.1 %.
+/// Standard normal deviate above which a sum of squares is too great. Chance exceeds it with a probability of 0.1 %.
 const TOO_GREAT: f64 = 3.09;
 
 impl Residual {
-    /// Whether the observation is hard to believe beside the others.
+    /// Whether the observation is hard to believe, given the others.
     pub fn is_suspicious(&self) -> bool {
         self.deviation.is_nan() || self.deviation.abs() > SUSPICIOUS
     }
 }
 
 impl Answer {
-    /// Whether the sum of squares is no greater than chance makes it; true where nothing is left to test.
+    /// Whether the sum of squares is no greater than chance makes it; true if there is nothing left to test.
     pub fn explains(&self) -> bool {
         if self.freedom == 0 {
             return true;
@@ -136,9 +136,9 @@ impl Answer {
         ((self.chi_square / f).cbrt() - (1.0 - spread)) / spread.sqrt() <= TOO_GREAT
     }
 
-    /// How well launches are known by this answer: as the least sure of them. What was known `before` is not narrowed by launches by
-    /// row, for which a plan has no key of their own, by estimates that have not settled, and by a fit without a scatter from shot to
-    /// shot, `between_shots_percent`, which took all else for exact.
+    /// Uncertainty of launches by this answer: that of the launch that is known worst. The uncertainty `before` is never narrowed
+    /// by three kinds of fits: by launches by row, because a plan has no key of its own for them; by estimates that are not final;
+    /// and by a fit without `between_shots_percent`, because it takes all other inputs as exact.
     pub(super) fn launch_uncertainty(
         &self,
         before: &Uncertainty,
@@ -164,8 +164,8 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// Launches are known to 2 % by this fit, and were to 3 %: only one that counts on scatter between shots says so, of all
-    /// launches at once, once it has settled. What is less sure than before is always told.
+    /// This fit knows launches to 2 %, the plan before to 3 %. The 2 % count only if the fit includes scatter between shots,
+    /// estimates all launches at once, and is final. A greater uncertainty than before always counts.
     #[test]
     fn nothing_less_sure_is_written_as_surer() {
         let text = include_str!("../../../plans/amur-three-rows.toml");

@@ -1,20 +1,21 @@
 //! How far launch velocities differ from shot to shot.
 //!
-//! No observation of one shot tells how far the next one differs from it, so that the plan's number stands, or a cautious one. From
-//! [`LEAST_SHOTS`] shots on, the shots themselves bound it:
-//! 1. Symbols: σ the standard deviation of launch factors, as the fit takes it; of shot j: r the residuals of its observations,
-//!    S their covariance, g their change over σ.
+//! Observations of one shot do not show how far the next shot differs from it. So the fit takes the number of the plan, or a
+//! cautious number. From [`LEAST_SHOTS`] shots on, the shots themselves bound the scatter:
+//! 1. Symbols: σ is the standard deviation of launch factors that the fit takes. For shot j, r are the residuals of its
+//!    observations, S is their covariance, and g is their change over σ.
 //! 2. z = gᵀS⁻¹r / gᵀS⁻¹g estimates how far the factor of the shot lies from the mean, in units of σ.
-//! 3. The z scatter by the true standard deviation s and by all else, so that Σ (z − z̄)² is at least (s/σ)² times a χ² of
-//!    f degrees of freedom: f is the number of shots less that of parameters, each of which may follow the shots.
-//! 4. With q the 5 % quantile of that χ², s lies below σ √(Σ (z − z̄)² / q) with a probability of 95 % or more.
-//! 5. Shots that lie freakishly close together, by chance or because one was typed again, would make that bound as small as one
-//!    likes. But a shot tells its factor no better than 1/gᵀS⁻¹g − 1 says, the variance n² of what else scatters, in units of σ².
-//!    So no bound is smaller than σ n, and none smaller than [`LEAST_PERCENT`], which a plan without a word assumes.
+//! 3. The z scatter by the true standard deviation s, and by all other causes. So Σ (z − z̄)² is at least (s/σ)² times a χ² with f
+//!    degrees of freedom. f is the number of shots less the number of parameters, because each parameter may follow the shots.
+//! 4. Let q be the 5 % quantile of that χ². Then s is below σ √(Σ (z − z̄)² / q) with a probability of 95 % or more.
+//! 5. Shots may lie too close together, by chance or because one was typed twice. Then the bound of line 4 would be far too small.
+//!    But a shot shows its factor no better than with the variance n² = 1/gᵀS⁻¹g − 1 of all other scatter, in units of σ² (mean
+//!    over the shots). So no bound is smaller than σ n, and none is smaller than [`LEAST_PERCENT`].
 //!
-//! From two shots on, they can show that the plan's number is too small: under it Σ (z − z̄)² gᵀS⁻¹g is a χ² with one degree of
-//! freedom less than shots. Where it exceeds the 97.5 % quantile, the fit takes σ √(Σ (z − z̄)² / f) instead, which counts all scatter as
-//! that of the shots. A plan that says that shots do not differ is asked so with [`LEAST_PERCENT`]: of no scatter there is no z.
+//! Two shots are enough to show that the number of the plan is too small. With that number, Σ (z − z̄)² gᵀS⁻¹g is a χ² with f
+//! degrees of freedom, where f is now the number of shots less one. If the sum exceeds the 97.5 % quantile, the fit takes σ
+//! √(Σ (z − z̄)² / f) instead. That counts all scatter as scatter of the shots. If the plan says that shots do not differ, σ would
+//! be 0 and z undefined: then the fit takes [`LEAST_PERCENT`] first.
 
 use nalgebra::DVector;
 
@@ -23,47 +24,48 @@ use super::refined_answer::RefinedAnswer;
 use crate::plan::Uncertainty;
 use crate::plan::write_fit::StatedKeys;
 
-/// Least number of shots that say how far shots differ: of five the upper bound is 2.4 times the spread found, of three 4.4 times.
+/// Least number of shots that bound the scatter between shots. With five shots the bound is 2.4 times the scatter found, with three
+/// 4.4 times.
 pub const LEAST_SHOTS: usize = 5;
 
-/// What a fit takes at least where the plan does not say how far shots differ [%].
+/// Least scatter between shots that a fit takes if the plan does not state it [%].
 const CAUTIOUS_PERCENT: f64 = 5.0;
 
-/// Least scatter from shot to shot that shots can show [%].
+/// Least scatter between shots that observations can show [%].
 const LEAST_PERCENT: f64 = 1.0;
 
-/// Standard normal deviate above which 2.5 % lie.
+/// Standard normal deviate that 2.5 % exceed.
 const EXCEEDED_BY_FEW: f64 = 1.96;
 
 /// Standard normal deviate below which 5 % lie.
 const FIVE_PERCENT: f64 = -1.645;
 
-/// How far launch velocities differ from shot to shot, as a fit took it.
+/// Scatter of launch velocities between shots, as a fit took it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BetweenShots {
-    /// The coefficient of variation used [%].
+    /// Coefficient of variation that the fit used [%].
     pub percent: f64,
-    /// Where it is from.
+    /// Source of that number.
     pub source: BetweenShotsSource,
-    /// Number of shots that were observed.
+    /// Number of observed shots.
     pub shots: usize,
 }
 
-/// Where the scatter from shot to shot is from.
+/// Source of the scatter between shots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BetweenShotsSource {
     /// The plan states it.
     Stated,
-    /// The plan leaves it out.
+    /// The plan does not state it, so the fit assumes it.
     Assumed,
-    /// The shots bound it.
+    /// The shots give this upper bound.
     UpperBound,
-    /// The shots differ by more than the plan states, or leaves to be assumed, which is this number [%].
+    /// The shots differ by more than this number [%], which the plan states or the fit assumed.
     WiderThan(f64),
 }
 
 impl BetweenShots {
-    /// What is known of it before the observations of so many shots.
+    /// The scatter that is known before the observations of so many shots.
     pub fn before(uncertainty: &Uncertainty, stated: &StatedKeys, shots: usize) -> Self {
         let cautious = CAUTIOUS_PERCENT.max(uncertainty.launch_common_percent);
         let (percent, source) = match stated.launch_between_shots {
@@ -73,15 +75,16 @@ impl BetweenShots {
         Self { percent, source, shots }
     }
 
-    /// What a fit takes first [%].
+    /// The scatter that a fit takes first [%].
     pub(super) fn taken_first(self) -> f64 {
         if self.percent == 0.0 && self.shots > 1 { LEAST_PERCENT } else { self.percent }
     }
 
-    /// The upper bound of `seen` where that is smaller, and their own scatter where that is surely greater; `answer` is the best of
-    /// a fit with `parameters` that took the scatter of [`Self::taken_first`].
+    /// The upper bound of the scatter in `seen` if it is smaller, or the scatter found if it is surely greater; else the scatter
+    /// before. `answer` is the best answer of a fit with `parameters` parameters that took [`Self::taken_first`].
     pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
-        // What a plan says that shots do not do is not shown by observations that no launch explains.
+        // The plan may say that shots do not differ. Only an answer that is final can refute that, not observations that no launch
+        // explains.
         let shows = self.percent > 0.0 || answer.is_settled;
         if shows { self.of_factors(&shot_factors(seen, answer), parameters) } else { self }
     }
@@ -95,7 +98,7 @@ impl BetweenShots {
         let freedom = factors.len().saturating_sub(parameters);
         let unseen = told.iter().map(|told| told.variance - 1.0).sum::<f64>() / told.len() as f64;
         let least = (self.percent * unseen.max(0.0).sqrt()).max(LEAST_PERCENT);
-        // Not a number where the shots tell no bound: no maximum may make a small one of it.
+        // NaN if the shots give no bound. Compare before taking a maximum: the maximum would turn NaN into a small bound.
         let bound = self.percent * upper_bound(&factors, freedom);
         match factors.len() >= LEAST_SHOTS && bound < self.percent && least < self.percent {
             true => Self { percent: bound.max(least), source: BetweenShotsSource::UpperBound, ..self },
@@ -104,16 +107,16 @@ impl BetweenShots {
     }
 }
 
-/// What one shot tells of its launch factor, in standard deviations that the fit took.
+/// Launch factor that the observations of one shot show, in standard deviations that the fit took.
 #[derive(Clone, Copy)]
 struct FittedFactor {
-    /// How far the factor lies from the mean; not a number where the shot does not tell.
+    /// Distance of the factor from the mean; NaN if the shot does not show it.
     factor: f64,
-    /// Variance of that number under the scatter that the fit took: 1 of the shot, the rest of all else.
+    /// Variance of that distance under the scatter that the fit took: 1 from the shot, the rest from all other scatter.
     variance: f64,
 }
 
-/// What each shot tells.
+/// The launch factor of each shot (`n_shots`).
 fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<FittedFactor> {
     let of_shot = |range: std::ops::Range<usize>| {
         let residual = |n: usize| seen.list[n].value - answer.predicted[n];
@@ -128,8 +131,8 @@ fn shot_factors(seen: &ObservedShots, answer: &RefinedAnswer) -> Vec<FittedFacto
     seen.shots().iter().map(|shot| of_shot(shot.observations())).collect()
 }
 
-/// Scatter of the factors [standard deviations that the fit took], where it is more than chance makes it. A shot that does not tell
-/// hides none of it.
+/// Scatter of the factors [standard deviations that the fit took] if it exceeds chance. A shot that shows no factor is left out, so
+/// it does not hide the scatter of the others.
 fn greater_scatter(told: &[FittedFactor]) -> Option<f64> {
     let told: Vec<FittedFactor> = told.iter().copied().filter(|told| told.factor.is_finite()).collect();
     let freedom = told.len().checked_sub(1).filter(|freedom| *freedom > 0)? as f64;
@@ -141,15 +144,16 @@ fn greater_scatter(told: &[FittedFactor]) -> Option<f64> {
     (chi_square > chi_square_quantile(freedom, EXCEEDED_BY_FEW) && scatter > 1.0).then_some(scatter)
 }
 
-/// Upper bound, at 95 %, of the standard deviation of numbers that scatter at least as a normal variable does with so many degrees
-/// of freedom. Not a number where a number is none, and where there is no freedom.
+/// Upper bound, at 95 %, of the standard deviation of numbers that scatter at least as much as a normal variable with `freedom`
+/// degrees of freedom. NaN if a number is NaN or `freedom` is 0.
 fn upper_bound(numbers: &[f64], freedom: usize) -> f64 {
     let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
     let squares: f64 = numbers.iter().map(|number| (number - mean).powi(2)).sum();
     (squares / chi_square_quantile(freedom as f64, FIVE_PERCENT)).sqrt()
 }
 
-/// Quantile of χ² with `f` degrees of freedom at a standard normal deviate (Wilson and Hilferty 1931); below 5 % a little too small.
+/// Quantile of χ² with `f` degrees of freedom at a standard normal deviate (Wilson and Hilferty 1931). Below 5 % it is slightly too
+/// small.
 fn chi_square_quantile(f: f64, deviate: f64) -> f64 {
     let spread = 2.0 / (9.0 * f);
     f * (1.0 - spread + deviate * spread.sqrt()).powi(3)
@@ -163,7 +167,7 @@ mod tests {
 
     use super::*;
 
-    /// Quantiles of tables; a quantile that is too small makes a bound that is too large, by 2 % at most.
+    /// Quantiles from tables. A quantile that is too small makes a bound that is too large, by 2 % at most.
     #[test]
     fn quantiles_are_those_of_tables() {
         for (freedom, exact) in [(4.0, 0.7107), (5.0, 1.1455), (9.0, 3.3251), (30.0, 18.4927)] {
@@ -172,7 +176,7 @@ mod tests {
         }
     }
 
-    /// Of 4,000 sets of shots 5 % lie above their bound, with a standard error of 0.35 %; noise of each shot only raises the bound.
+    /// Of 4,000 sets of shots, 5 % lie above their bound, with a standard error of 0.35 %. Noise of each shot only raises the bound.
     #[test]
     fn the_bound_holds_in_95_of_100_sets_of_shots() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
@@ -188,8 +192,8 @@ mod tests {
         assert!(upper_bound(&[1.0, f64::NAN, 2.0], 2).is_nan() && upper_bound(&[1.0], 0).is_nan());
     }
 
-    /// Six shots much alike narrow 5 %; not where as many parameters follow them, and not where one of them does not tell. Nor does that
-    /// one hide that the others scatter more.
+    /// Six shots that are much alike narrow 5 %. They do not if six parameters follow them, or if one of them shows no factor. But
+    /// that one does not hide that the others scatter more.
     #[test]
     fn shots_that_tell_no_bound_narrow_nothing() {
         let assumed = BetweenShots { percent: 5.0, source: BetweenShotsSource::Assumed, shots: 6 };
@@ -205,7 +209,7 @@ mod tests {
         assert_eq!(assumed.of_factors(&told(&[0.1, -0.1, 0.2, -0.2, 0.1, f64::NAN]), 1), assumed);
         let wide = assumed.of_factors(&told(&[4.0, -4.0, 5.0, -5.0, 4.0, f64::NAN]), 1);
         assert!(wide.percent > 5.0 && matches!(wide.source, BetweenShotsSource::WiderThan(_)), "{wide:?}");
-        // A plan that says that they do not differ at all is widened, too.
+        // A plan that says that shots do not differ at all is widened, too.
         let none = BetweenShots { percent: 0.0, source: BetweenShotsSource::Stated, shots: 6 };
         assert_eq!(none.of_factors(&alike, 1), none);
         let wide = none.of_factors(&told(&[4.0, -4.0, 5.0, -5.0, 4.0, -4.0]), 1);

@@ -1,18 +1,18 @@
-//! What a plan predicts of observations near some coordinates of the parameters, on average over what scatters, and how far the
-//! observations may lie from that.
+//! Mean predictions of a plan near some coordinates of the parameters, and the covariance of observations about them.
 //!
-//! The motion is not smooth: the prediction of the plan as it is jumps where a cable catches, and is not the mean of what scatter
-//! makes of it. So samples are drawn in which the parameters spread a little, inputs in common that are not estimated spread as
-//! `[uncertainty]` has it, each shot has a launch factor of its own, and holes and tires scatter; the values seen are regressed on
-//! parameters, inputs and factors. That gives
+//! The motion is not smooth. The prediction of the unchanged plan jumps where a cable catches, and is not the mean under scatter.
+//! So samples are drawn. In them the parameters spread a little, inputs in common that are not estimated spread as `[uncertainty]`
+//! says, each shot has its own launch factor, and holes and tires scatter. The observed values are regressed on parameters, inputs
+//! and factors. This gives
 //! 1. the mean prediction and its slopes over the parameters,
-//! 2. the covariance of observations about it, the sum of five: what was stated of each observation, and the error of the time
-//!    integration, both independent; what the slopes over the inputs in common make of their variance, which ties all shots
-//!    together; what the slope over its launch factor makes of each shot, which ties the observations of that shot; and the
-//!    covariance of what remains, the scatter from hole to hole, within each shot. Different shots scatter independently.
+//! 2. the covariance of the observations about the mean. It is a sum of five parts: the stated error of each observation, and the
+//!    error of the time integration, both independent; the variance from the inputs in common (by their slopes), which ties all
+//!    shots together; the variance from the launch factor of a shot (by its slope), which ties the observations of that shot
+//!    together; and the covariance of the rest within each shot, which is the scatter from hole to hole. Different shots scatter
+//!    independently.
 //!
-//! Covariances of a finite number of samples tie observations by chance: for n observations of a shot those that remain are drawn
-//! toward 0 by the share n/(n + samples).
+//! Covariances from a finite number of samples tie observations together by chance. So for n observations of a shot, the
+//! covariances of the rest move toward 0 by the share n/(n + samples).
 
 use std::ops::Range;
 
@@ -32,11 +32,11 @@ use crate::study::samples::run_sample::sample_step;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
-/// Least number of samples behind a mean, its slopes, and its covariance.
+/// Least number of samples for a mean, its slopes, and its covariance.
 const SAMPLES: usize = 96;
-/// Least number of samples for each observation: slopes by chance add the share 1/4 or less to what the observations tell.
+/// Least number of samples per observation. Then slopes by chance add a share of 1/4 or less to what the observations say.
 const SAMPLES_EACH: usize = 4;
-/// Least share of the samples that have a value, for the prediction to have one.
+/// Least share of samples with a value that a prediction needs.
 const LEAST_KNOWN_SHARE: f64 = 0.5;
 
 /// The covariance of observations about their predictions, and its parts.
@@ -50,7 +50,7 @@ pub struct ObservationCovariance {
     factor: Cholesky<f64, Dyn>,
 }
 
-/// Residual, in standard deviations, of a prediction that has no value: the tire never lifts, or never lands.
+/// Residual of a prediction without a value [standard deviations]: the tire never lifts, or never lands.
 const UNKNOWN_VALUE_SDS: f64 = 10.0;
 
 impl ObservationCovariance {
@@ -63,12 +63,12 @@ impl ObservationCovariance {
         self.factor.l().solve_lower_triangular(&DVector::from_fn(observed.len(), |n, _| residual(n)))
     }
 
-    /// Derivatives of the predictions [their units], likewise (`n_observations` × `n_parameters`).
+    /// Derivatives of the predictions [their units], made independent and of unit variance (`n_observations` × `n_parameters`).
     pub fn whiten(&self, slopes: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         self.factor.l().solve_lower_triangular(slopes)
     }
 
-    /// The covariance of some of the observations, which follow one another.
+    /// The covariance of a range of consecutive observations.
     pub fn of(&self, observations: Range<usize>) -> DMatrix<f64> {
         let (first, count) = (observations.start, observations.len());
         let rows = self.factor.l().rows(first, count).clone_owned();
@@ -83,25 +83,25 @@ impl ObservationCovariance {
     }
 }
 
-/// What a plan predicts near some coordinates.
+/// Predictions of a plan near some coordinates.
 pub struct SampledPrediction {
-    /// The mean of each prediction at the coordinates; not a number where most samples have no value.
+    /// The mean of each prediction at the coordinates; NaN if most samples have no value.
     pub mean: Vec<f64>,
-    /// Its derivatives (`n_observations` × `n_parameters`).
+    /// Derivatives of the mean (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
-    /// Its change with the launch factor of its shot, over a standard deviation of that factor (`n_observations`).
+    /// Change of each prediction over a standard deviation of the launch factor of its shot (`n_observations`).
     pub over_shot_factor: DVector<f64>,
-    /// The covariance of the observations about it.
+    /// The covariance of the observations about the mean.
     pub covariance: ObservationCovariance,
 }
 
-/// What predictions depend on besides the coordinates.
+/// What predictions depend on, besides the coordinates.
 pub struct CovarianceModel<'a> {
     /// The predictions of the parameters.
     pub predictor: &'a Predictor<'a>,
-    /// The plan as it is.
+    /// The unchanged plan.
     pub plan: &'a Plan,
-    /// Inputs in common that are not estimated, each with what the plan knows of it.
+    /// Inputs in common that are not estimated, each with its prior.
     pub not_estimated: &'a [(Parameter, Prior)],
     /// Coefficient of variation of launch velocities from shot to shot [%].
     pub between_shots_percent: f64,
@@ -110,14 +110,14 @@ pub struct CovarianceModel<'a> {
 }
 
 impl CovarianceModel<'_> {
-    /// The covariance at these coordinates where nothing scatters and all inputs are exact; `None` where the run there fails.
+    /// The covariance at these coordinates if nothing scatters and all inputs are exact; `None` if the run there fails.
     pub fn without_scatter(&self, at: &[f64]) -> Result<Option<ObservationCovariance>, NoResult> {
         let Some(errors) = self.integration_errors(at)? else { return Ok(None) };
         Ok(ObservationCovariance::new(self.observation_covariance(&errors), errors))
     }
 
-    /// The predictions near these coordinates, from samples drawn with this seed in which each coordinate spreads by a standard
-    /// deviation `spread`; `None` where the run at the coordinates fails.
+    /// The predictions near the coordinates `at`, from samples with this seed. In the samples each coordinate spreads by its
+    /// standard deviation in `spread`. `None` if the run at the coordinates fails.
     pub fn from_samples(
         &self,
         at: &[f64],
@@ -130,7 +130,7 @@ impl CovarianceModel<'_> {
         let numbers: Vec<usize> = (0..drawn).collect();
         let samples = run_batch(&numbers, self.predictor.control, |&number| {
             let sample = self.sample(at, spread, shots.len(), seed, number);
-            // A seed for each shot: what scatters in one does not repeat in another.
+            // Each shot has its own seed: scatter in one shot does not repeat in another.
             let observe = |(n, shot): (usize, &ObservedShot)| {
                 self.observe_sample(&sample, n, shot, seed.wrapping_add(n as u64), number)
             };
@@ -139,7 +139,7 @@ impl CovarianceModel<'_> {
         })?;
         let samples: Option<Vec<_>> = samples.into_iter().collect();
         let samples = samples.ok_or(NoResult::OutOfTime)?;
-        // The mean, the parameters, inputs that are not estimated, and the factor of the shot.
+        // Columns: the mean, the parameters, the inputs that are not estimated, the factor of the shot.
         let (count, inputs) = (self.seen.list.len(), 2 + at.len() + self.not_estimated.len());
         let mut values = DMatrix::from_element(drawn, count, f64::NAN);
         for (number, (.., runs)) in samples.iter().enumerate() {
@@ -160,7 +160,7 @@ impl CovarianceModel<'_> {
                 }
             };
             let regressors = DMatrix::from_fn(drawn, inputs, regressor);
-            // A coordinate that cannot spread has no slope.
+            // The small term gives a coordinate that cannot spread the slope 0.
             let normal =
                 regressors.transpose() * &regressors + DMatrix::from_diagonal_element(inputs, inputs, 1e-9);
             let Some(factor) = normal.cholesky() else { return Ok(None) };
@@ -192,16 +192,16 @@ impl CovarianceModel<'_> {
         Ok(covariance.map(|covariance| SampledPrediction { mean, slopes, over_shot_factor, covariance }))
     }
 
-    /// Covariance of what was stated of each observation and of the error of each prediction.
+    /// Covariance from the stated error of each observation and the integration error of each prediction.
     fn observation_covariance(&self, errors: &[f64]) -> DMatrix<f64> {
         let variance = |n: usize| self.seen.list[n].sd.powi(2) + errors[n].powi(2);
         DMatrix::from_diagonal(&DVector::from_fn(errors.len(), |n, _| variance(n)))
     }
 
-    /// The sample of a number, with factors of so many `shots`.
+    /// Sample `number`, with a launch factor for each of so many `shots`.
     fn sample(&self, at: &[f64], spread: &[f64], shots: usize, seed: u64, number: usize) -> SampleOfShots {
         let mut random = ChaCha8Rng::seed_from_u64(!seed);
-        // In pairs to both sides, so that a bend of the predictions makes no slope.
+        // Samples come in pairs, one to each side. So a bend of the predictions makes no slope.
         random.set_stream((number / 2) as u64);
         let side = if number.is_multiple_of(2) { 1.0 } else { -1.0 };
         let mut plan = self.plan.clone();
@@ -236,7 +236,7 @@ impl CovarianceModel<'_> {
         SampleOfShots { case: Case::new(plan), deviations, shot_deviations, shot_factors }
     }
 
-    /// The values seen of one shot of a sample, the `n`-th; `None` where its run fails.
+    /// The observed values of the `n`-th shot of a sample; `None` if its run fails.
     fn observe_sample(
         &self,
         sampled: &SampleOfShots,
@@ -250,12 +250,12 @@ impl CovarianceModel<'_> {
         let planned = case.shots[shot.option].with_launches(sampled.shot_factors[n]);
         let sample = draw_shot(case, &planned, seed, number);
         let settings = case.run_settings(compute.method, sample_step(compute, &sample.scene));
-        // In the time of the plan, as observations are.
+        // Back to the time of the plan, in which observations are given.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, control)
     }
 
-    /// Error of each prediction, from runs at coarser steps; 0 where none of these has the value.
+    /// Error of each prediction, from runs at coarser steps; 0 if no coarser run has the value.
     fn integration_errors(&self, at: &[f64]) -> Result<Option<Vec<f64>>, NoResult> {
         let Some(values) = self.predictor.values(at, 1.0)? else { return Ok(None) };
         let coarser: Vec<f64> =
@@ -271,19 +271,19 @@ impl CovarianceModel<'_> {
     }
 }
 
-/// One sample of all shots that were observed.
+/// One sample of all observed shots.
 struct SampleOfShots {
-    /// The case, in which only holes and tires scatter still.
+    /// The case. In it only holes and tires still scatter.
     case: Case,
-    /// How far its parameters and other inputs lie from their means [standard deviations of their spread].
+    /// Deviations of the parameters and other inputs from their means [standard deviations of their spread].
     deviations: Vec<f64>,
-    /// The same of the launch factor of each shot (`n_shots`).
+    /// Deviation of the launch factor of each shot [standard deviations] (`n_shots`).
     shot_deviations: Vec<f64>,
     /// The launch factor of each shot (`n_shots`).
     shot_factors: Vec<f64>,
 }
 
-/// Puts the mean of a column in place of the values that it lacks. Whether each column had values often enough.
+/// Replaces missing values by the mean of their column. Returns whether each column had enough values.
 fn fill_gaps(values: &mut DMatrix<f64>) -> Vec<bool> {
     let mut has_often_values = Vec::new();
     for mut column in values.column_iter_mut() {

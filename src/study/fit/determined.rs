@@ -1,11 +1,11 @@
-//! Whether observations determine the parameters, and what else would.
+//! Whether observations determine the parameters, and which other observation would.
 //!
-//! 1. Symbols: J the derivatives of the predictions, made independent and of unit variance; S the diagonal of the standard
-//!    deviations that uniform distributions over the plausible ranges have.
-//! 2. A unit vector v with ‖J S v‖ = σ is a combination of the parameters that the observations know to 1/σ of its range.
-//! 3. A combination with σ below [`DETERMINED`] is not determined, and neither is any parameter that is a good part of it.
+//! 1. Symbols: J are the derivatives of the predictions, made independent and of unit variance. S is the diagonal matrix of the
+//!    standard deviations of uniform distributions over the plausible ranges.
+//! 2. A unit vector v is a combination of the parameters. If ‖J S v‖ = σ, the observations know the combination to 1/σ of its range.
+//! 3. A combination with σ below [`DETERMINED`] is not determined. Neither is any parameter that is a good part of it.
 //!
-//! What the plan knows beforehand does not count here: observations that add nothing to it are refused as well.
+//! Priors in the plan do not count here: observations that add nothing to them are refused as well.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -20,32 +20,32 @@ use crate::study::NoResult;
 
 /// Least σ of a combination that the observations determine.
 const DETERMINED: f64 = 2.0;
-/// Least σ that makes something else worth observing.
+/// Least σ that makes another observation worth while.
 const WORTH_OBSERVING: f64 = 1.0;
-/// Least share of a parameter in a combination that is not determined, at which the parameter is named.
+/// Least share of a parameter in an undetermined combination at which the parameter is named.
 const LEAST_SHARE_NAMED: f64 = 0.3;
-/// Shift along a combination, to each side, in standard deviations of the plausible ranges.
+/// Shift along a combination to each side, in standard deviations of the plausible ranges.
 const SHIFT: f64 = 0.15;
 
 /// Parameters that the observations do not determine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotDetermined {
-    /// The parameters: one by itself, or several of which only a combination is determined.
+    /// The parameters: a single one, or several of which only a combination is determined.
     pub parameters: Vec<Parameter>,
-    /// What else to observe; `None` where nothing of these shots would tell.
+    /// What else to observe; `None` if no observation of these shots would help.
     pub observe: Option<Observable>,
 }
 
-/// Something that could be observed.
+/// A possible observation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observable {
     /// Index of the delay option.
     pub option: usize,
-    /// What to watch.
+    /// The point to watch.
     pub watched: ObservedPoint,
 }
 
-/// Standard deviation with which somebody observes a quantity of this value, where nobody says: 5 cm, 20 ms, 5 %.
+/// Assumed standard deviation of an observation with this value, if none is stated: 5 cm, 20 ms, 5 % (of 1 kN or more).
 pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
     match quantity {
         ObservedQuantity::FlightHeight | ObservedQuantity::Height | ObservedQuantity::Drift => 0.05,
@@ -54,7 +54,7 @@ pub fn assumed_sd(quantity: ObservedQuantity, value: f64) -> f64 {
     }
 }
 
-/// Everything that could be observed of a shot under a shelter.
+/// Possible observations of a shot: flight height, landing and drift of each tire, and force of each cable.
 pub fn observables(scene: &Scene) -> Vec<ObservedPoint> {
     let of_tires = [ObservedQuantity::FlightHeight, ObservedQuantity::Landing, ObservedQuantity::Drift];
     let tires = itertools::iproduct!(of_tires, 0..scene.tire_count());
@@ -62,10 +62,11 @@ pub fn observables(scene: &Scene) -> Vec<ObservedPoint> {
     tires.chain(cables).map(|(quantity, index)| ObservedPoint { quantity, index, time: 0.0 }).collect()
 }
 
-/// A combination of parameters [standard deviations of their ranges] that is not determined; `None` where all are. `slopes` are J.
+/// A combination of parameters [standard deviations of their ranges] that is not determined; `None` if all are determined. `slopes`
+/// are J.
 ///
-/// Where several combinations are not, the basis that an eigenvalue solver finds of them hangs on the last digit. So the
-/// combination is the projection onto all of them of the parameter that lies nearest to them, the first of several.
+/// If several combinations are not determined, the basis that an eigenvalue solver finds depends on the last digit. So the result
+/// is a projection onto all of them: the projection of the parameter that is nearest to them, the first of several.
 fn undetermined(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> Option<DVector<f64>> {
     let scaled = slopes * DMatrix::from_diagonal(scales);
     let eigen = (scaled.transpose() * scaled).symmetric_eigen();
@@ -80,11 +81,11 @@ fn undetermined(slopes: &DMatrix<f64>, scales: &DVector<f64>) -> Option<DVector<
     Some(projection.column(nearest).normalize())
 }
 
-/// Difference of two squared cosines that counts as none.
+/// Two squared cosines that differ by less than this count as equal.
 const ALIKE: f64 = 1e-6;
 
-/// Refuses parameters that observations do not determine; `slopes` are J at the best answer. What else to observe is looked for at
-/// `own`, the coordinates of the plan: where nothing is determined, the best answer lies anywhere.
+/// Refuses parameters that observations do not determine; `slopes` are J at the best answer. The search for another observation
+/// looks at `own`, the coordinates of the plan: if nothing is determined, the best answer may lie anywhere.
 pub fn refuse(
     predictor: &Predictor<'_>,
     space: &SearchBox,
@@ -134,7 +135,7 @@ pub fn refuse(
 mod tests {
     use super::*;
 
-    /// One observation of a sum knows the sum and not the difference; two observations of different sums know both.
+    /// One observation of a sum determines the sum, not the difference. Two observations of different sums determine both.
     #[test]
     fn a_sum_does_not_tell_its_terms() {
         let scales = DVector::from_element(2, 1.0);
@@ -142,7 +143,7 @@ mod tests {
             undetermined(&DMatrix::from_row_slice(1, 2, &[50.0, 50.0]), &scales).expect("a difference");
         assert!((combination[0] + combination[1]).abs() < 1e-9 && combination[0].abs() > LEAST_SHARE_NAMED);
         assert_eq!(undetermined(&DMatrix::from_row_slice(2, 2, &[50.0, 50.0, 50.0, 10.0]), &scales), None);
-        // Nothing is known of the second and the third, whatever the basis: the second stands for both.
+        // Nothing is known of the second and the third, in any basis. The second stands for both.
         let both =
             undetermined(&DMatrix::from_row_slice(1, 3, &[50.0, 0.0, 0.0]), &DVector::from_element(3, 1.0));
         assert!(both.is_some_and(|both| (both - DVector::from_vec(vec![0.0, 1.0, 0.0])).norm() < 1e-9));

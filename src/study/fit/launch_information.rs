@@ -1,37 +1,39 @@
-//! What values that could have been seen of a shot tell together of its launches.
+//! What several observed values of one shot together say about its launches.
 
 use nalgebra::{DMatrix, DVector};
 
-/// What one of the values tells of the logarithm of the launch in common, beside the others of its shot.
+/// What one value says about the logarithm of the launch in common, beside the other values of its shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LaunchInformation {
-    /// Mean of the value in samples, in standard deviations of its band, as all below.
+    /// Mean of the value in samples. It is in standard deviations of its band, like all values here.
     pub mean: f64,
-    /// Weight of the value less its mean in what the values of its shot tell together of that logarithm, in standard deviations of it; 0
-    /// where it is not known.
+    /// Weight of the value (minus its mean) in the estimate of that logarithm from all values of the shot. The estimate is in
+    /// standard deviations of the logarithm. 0 if unknown.
     pub weight: f64,
-    /// Its share of q.
+    /// Share of the value in q.
     pub share: f64,
-    /// The part q of the variance of the launch that the values of its shot take away.
+    /// The part q of the variance of the launch that the values of the shot remove.
     pub taken_away: f64,
-    /// Variance of what its shot tells, about the launch, that repeats in every shot: stiffness and friction stay what they are.
+    /// Variance of the estimate about the launch that repeats in every shot, because stiffness and friction stay what they are.
     pub repeats: f64,
 }
 
-/// So many samples for each value whose part is told apart from those of the others.
+/// Number of samples needed per value to separate its part from the parts of the others.
 const SAMPLES_OF_A_VALUE: usize = 10;
-/// Least part of the variance of a value that it shares with no other, however alike they are in samples: no two are seen of one point.
+/// Least part of the variance of a value that it shares with no other value, however alike they are in samples: no two are observed
+/// at one point.
 const LEAST_OWN: f64 = 0.01;
 
-/// What each of `values` tells of the launch, in standard deviations of their bands (`n_values` × `n_samples`; empty where it is not
-/// known). `launch` are the logarithms of the launch in common (`n_samples`), `repeating` the other inputs that repeat in every shot
-/// (`n_inputs` × `n_samples`).
+/// What each of `values` says about the launch, in standard deviations of their bands (`n_values` × `n_samples`; empty if unknown).
+/// `launch` holds the logarithms of the launch in common (`n_samples`). `repeating` holds the other inputs that repeat in every
+/// shot (`n_inputs` × `n_samples`).
 ///
-/// 1. Of values and launch that are normal together, the mean of the launch given the values z is rᵀR⁻¹z, and its variance 1 − q with
-///    q = rᵀR⁻¹r, where r are their correlations with the launch and R those among them.
-/// 2. Of N samples, q of d values is too great by chance; what stays is 1 − (1 − q)(N − 1)/(N − d − 1).
-/// 3. Where the values are many, those that follow the launch best tell alone; d counts all among which these were found, to N/2.
-/// 4. What they tell lies off the launch by a part that the other repeating inputs explain: more shots do not take it away.
+/// 1. Symbols: z are the values, r are their correlations with the launch, and R are the correlations among them. If values and
+///    launch are jointly normal, the launch given z has the mean rᵀR⁻¹z and the variance 1 − q with q = rᵀR⁻¹r.
+/// 2. With N samples and d values, q is too great by chance. The corrected q is 1 − (1 − q)(N − 1)/(N − d − 1).
+/// 3. If there are many values, only the values that follow the launch best count. d counts all values from which they were chosen,
+///    up to N/2.
+/// 4. The other repeating inputs explain a part of the error of the estimate. More shots do not remove that part.
 pub fn launch_information(
     values: &[Vec<f64>],
     launch: &[f64],
@@ -74,7 +76,7 @@ pub fn launch_information(
     told
 }
 
-/// The variance of `values` that these inputs explain (`n_inputs` × `n_samples`), less what chance explains.
+/// The variance of `values` that these inputs explain (`n_inputs` × `n_samples`), minus the variance that chance explains.
 fn explained(values: &DVector<f64>, inputs: &[Vec<f64>]) -> f64 {
     let known: Vec<DVector<f64>> = inputs.iter().filter_map(|input| Some(standardized(input)?.0)).collect();
     let degrees = values.len() as f64 - 1.0;
@@ -85,7 +87,8 @@ fn explained(values: &DVector<f64>, inputs: &[Vec<f64>]) -> f64 {
     (inverse.solve(&with).dot(&with) - by_chance).max(0.0)
 }
 
-/// Values less their mean, in standard deviations, and both; `None` where they are all alike, or some are not known.
+/// Values minus their mean, in standard deviations; then the mean and the standard deviation. `None` if all values are alike, or
+/// some are unknown.
 fn standardized(values: &[f64]) -> Option<(DVector<f64>, f64, f64)> {
     let values = DVector::from_column_slice(values);
     let mean = values.mean();
@@ -102,9 +105,9 @@ mod tests {
 
     use super::*;
 
-    /// Of values x = √c F + √(1 − c) e is R = (1 − c) I + c 11ᵀ, so that each has the weight √c / (1 − c + d c) and d values take away
-    /// d c / (1 − c + d c). 20,000 samples err by 0.007 in each correlation; each value has 1 % more of its own. Values that are not known
-    /// tell nothing, and a value that is seen twice tells hardly more than once.
+    /// Values x = √c F + √(1 − c) e have R = (1 − c) I + c 11ᵀ. So each has the weight √c / (1 − c + d c), and d values remove d c
+    /// / (1 − c + d c). 20,000 samples err by 0.007 in each correlation; each value has 1 % more of its own. Unknown values say
+    /// nothing, and a value that is given twice says hardly more than once.
     #[test]
     fn values_that_scatter_by_themselves_tell_more_together() {
         let random = &mut ChaCha8Rng::seed_from_u64(1);
@@ -133,7 +136,7 @@ mod tests {
         let once = taken_away(&values[..1]);
         let twice = taken_away(&[values[0].clone(), values[0].clone()]);
         assert!((once - common).abs() < 0.015 && (twice - once).abs() < 0.005, "{once} {twice}");
-        // The same in other units and about another middle.
+        // The same value in another unit and about another mean.
         let moved: Vec<f64> = values[0].iter().map(|value| 2.0 * value + 3.0).collect();
         let [own, moved] = [&values[0], &moved]
             .map(|values| launch_information(std::slice::from_ref(values), &launch, &[])[0]);
@@ -143,8 +146,8 @@ mod tests {
         );
     }
 
-    /// Of x = 0.6 F + 0.6 S + 0.53 e, where S is a stiffness that stays, is T = x / 0.6: it lies off F by S and e, of which S repeats with the
-    /// variance 1.
+    /// For x = 0.6 F + 0.6 S + 0.53 e with a constant stiffness S, the estimate T is x / 0.6. T differs from F by S and e. S
+    /// repeats with the variance 1.
     #[test]
     fn what_repeats_beside_the_launch_is_told_apart() {
         let random = &mut ChaCha8Rng::seed_from_u64(3);
@@ -156,9 +159,9 @@ mod tests {
         assert!((told.taken_away - 0.36).abs() < 0.015 && (told.repeats - 1.0).abs() < 0.05, "{told:?}");
     }
 
-    /// Values that follow no launch take nothing away, on the average of 100 films of 200 samples, though each film alone seems to tell a
-    /// tenth: of 20 values the standard error is 0.003. Of 100 the twenty best seem to tell more, which is no more than chance either. A
-    /// launch that is known exactly is told nothing, nor is one of nineteen values from 9 samples.
+    /// Values that follow no launch remove nothing, on average over 100 films of 200 samples. Each film alone seems to remove a
+    /// tenth; with 20 values the standard error is 0.003. With 100 values, the twenty best seem to remove more, but that is chance,
+    /// too. Values say nothing about a launch that is known exactly, and nineteen values from 9 samples say nothing either.
     #[test]
     fn chance_tells_nothing_of_launches() {
         let random = &mut ChaCha8Rng::seed_from_u64(2);

@@ -1,25 +1,25 @@
-//! What observations of earlier shots tell of launch velocities and other unknowns.
+//! Estimates launch velocities and other unknowns from observations of earlier shots.
 //!
-//! Weighted least squares: of the parameters within plausible ranges those whose predictions fit the observations best; what
-//! `[uncertainty]` of the plan states of them counts as observations. The weights are the inverse of the observations'
-//! [`covariance`], first at the plan, then at each answer. Inputs that are not estimated are not taken for exact: they widen the
-//! covariance. Launch velocities differ from shot to shot, and no observation of one shot says how far: each shot has a factor of
-//! its own in the covariance ([`between_shots`]).
+//! The method is weighted least squares. Within plausible ranges, the fit finds the parameters whose predictions fit the
+//! observations best. Each prior that `[uncertainty]` states counts as one more observation. The weights are the inverse of the
+//! [`covariance`] of the observations, first at the plan, then at each answer. Inputs that are not estimated are not exact: they
+//! widen the covariance. Launch velocities differ from shot to shot, and observations of one shot do not show how far. So each shot
+//! has its own factor in the covariance ([`between_shots`]).
 //!
 //! | question | where |
 //! |---|---|
-//! | what is found | `answer` |
-//! | which numbers are estimated, and what the plan knows of them | [`parameter`] |
-//! | which answers the observations leave, and how sure they are | `problem` |
+//! | the result | `answer` |
+//! | which numbers are estimated, and their priors in the plan | [`parameter`] |
+//! | which answers fit the observations, and how sure they are | `problem` |
 //! | the observations by shot | [`observed_shots`] |
-//! | what a plan predicts | `predictor`, `observation_recorder` |
-//! | how far observations may lie from it | [`covariance`] |
+//! | the predictions of a plan | `predictor`, `observation_recorder` |
+//! | how far observations may lie from a prediction | [`covariance`] |
 //! | how far shots differ | [`between_shots`] |
 //! | which parameters fit best, in which separate answers | [`search`] |
-//! | whether observations determine them | [`determined`] |
-//! | how observations lie among the shots that were possible, and what tells most of a shot | [`observation_bands`] |
-//! | what values of a shot tell together of its launches | [`launch_information`] |
-//! | what to observe next, of a shot that may be fired | [`what_next`] |
+//! | whether observations determine the parameters | [`determined`] |
+//! | where observations lie among the sampled shots, and which observation says most about a shot | [`observation_bands`] |
+//! | what the values of one shot together say about its launches | [`launch_information`] |
+//! | what to observe next, in a shot that may be fired | [`what_next`] |
 
 mod answer;
 pub mod between_shots;
@@ -57,7 +57,7 @@ use crate::plan::observations::{ObservableNames, Observations};
 use crate::plan::write_fit::StatedKeys;
 use crate::scene::TireId;
 
-/// What observations of a plan may name.
+/// Names that observations of a plan may use.
 pub fn observable_names(case: &Case) -> ObservableNames {
     let scene = case.scene();
     ObservableNames {
@@ -72,33 +72,34 @@ pub fn observable_names(case: &Case) -> ObservableNames {
     }
 }
 
-/// Launch velocities and other unknowns from what was seen of earlier shots, beside what the plan says of them.
+/// The question: which launch velocities and other unknowns follow from observations of earlier shots, beside the predictions of
+/// the plan?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Files of observations.
     pub observed: Vec<Observations>,
-    /// What is estimated, each once.
+    /// Unknowns to estimate, each once.
     pub unknowns: Vec<Unknown>,
 }
 
-/// What was seen of earlier shots, beside what the plan says of it.
+/// Observations of earlier shots, beside the predictions of the plan.
 #[derive(Clone, Debug)]
 pub struct ComparedWithSeen {
-    /// The fit of what the plan was not fitted to yet; `None` where it was fitted to all.
+    /// Fit to the files that the plan was not fitted to yet; `None` if it was fitted to all.
     pub fitted: Option<FitResult>,
-    /// The observations that it is of.
+    /// The files of that fit.
     pub new: Vec<Observations>,
-    /// All files of observations, those that the plan was fitted to, too.
+    /// All files of observations, including the files that the plan was already fitted to.
     pub files: Vec<Observations>,
-    /// What was seen in them.
+    /// The observations in all files.
     pub seen: ObservedShots,
-    /// What the plan says now of each of these observations.
+    /// Prediction of the present plan for each of these observations.
     pub predictions: Vec<Prediction>,
-    /// Whether there were samples of what the plan does not know.
+    /// Whether the plan was sampled.
     pub is_sampled: bool,
 }
 
-/// Runs that a fit usually takes.
+/// Usual number of runs of a fit.
 const RUNS_OF_FIT: usize = 6000;
 
 impl Study for Question {
@@ -111,7 +112,8 @@ impl Study for Question {
     });
 
     fn expected_runs(case: &Case) -> Option<usize> {
-        // What to observe next follows from the verdicts of all options.
+        // The search for the next observation needs verdicts. This counts all options, though the fit judges only the option
+        // observed most.
         Some(RUNS_OF_FIT + case.shots.len() * samples_to_come(case, 0))
     }
 
@@ -134,8 +136,8 @@ impl Study for Question {
     }
 }
 
-/// Fits unknowns of a plan, each named once, to files of observations. Without samples all but the unknowns is taken for exact, and
-/// nothing is known of these beforehand.
+/// Fits unknowns of a plan, each named once, to files of observations. Without samples everything but the unknowns counts as exact,
+/// and the unknowns have no prior.
 pub fn fit(
     context: &Context<'_>,
     files: &[Observations],
@@ -169,7 +171,7 @@ pub fn fit(
         between_shots_percent: between_shots.map_or(0.0, BetweenShots::taken_first),
         priors,
         seen,
-        // The estimates go into a plan that the draws of the seed itself then judge.
+        // The plan with the estimates is later judged by the draws of the seed itself, so the fit uses other draws.
         seed: sampling.map(|sampling| sampling.for_screening().seed),
     };
     control.has_steps(3);
@@ -178,7 +180,7 @@ pub fn fit(
     drop(answering);
     let again = control.part(SHARE_OF_ANSWERS);
     if let Some(before) = between_shots {
-        // The mean of the factors is followed by a launch; where none is estimated, it is one parameter more.
+        // The mean of the factors follows a launch. If no launch is estimated, the mean is one more parameter.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(unknowns));
         let of_shots = before.of_shots(&problem.seen, &settled[0], follow);
         if of_shots.percent != problem.between_shots_percent {
@@ -211,16 +213,16 @@ pub fn fit(
     Ok(FitResult::Fitted(fit))
 }
 
-/// Shares of what is left that the estimates take, twice, and the bands of what was seen.
+/// Shares of the remaining progress: for the estimates, taken twice, and for the bands of the observations.
 const SHARE_OF_ANSWERS: f64 = 0.5;
 const SHARE_OF_PREDICTIONS: f64 = 0.5;
 
-/// Whether launches are among what is estimated.
+/// Whether launches are among the unknowns.
 fn estimates_launches(unknowns: &[Unknown]) -> bool {
     unknowns.iter().any(|unknown| matches!(unknown, Unknown::Launch | Unknown::LaunchByRow))
 }
 
-/// The case without a `duration_s`, where friction brings the tires to rest: what was seen later than that is computed, too.
+/// The case without `duration_s` if friction brings the tires to rest. Then later observations are computed, too.
 fn until_rest(case: &Case) -> Case {
     let least_friction = case.plan.ground.friction.min(case.plan.uncertainty.friction[0]);
     match 1e2 * least_friction > case.plan.ground.slope_percent {
@@ -229,7 +231,7 @@ fn until_rest(case: &Case) -> Case {
     }
 }
 
-/// What `[uncertainty]` states of each parameter; an unknown of which it says that it is exact is an error.
+/// The prior that `[uncertainty]` states for each parameter. An unknown that it states as exact is an error.
 fn stated_priors(
     &Context { case, sampling, .. }: &Context<'_>,
     parameters: &[Parameter],
@@ -245,7 +247,7 @@ fn stated_priors(
     parameters.iter().map(prior).collect()
 }
 
-/// Inputs in common that are not estimated and that are not exact.
+/// Inputs in common that are neither estimated nor exact, each with its prior.
 fn not_estimated(
     &Context { case, sampling, .. }: &Context<'_>,
     unknowns: &[Unknown],
@@ -257,14 +259,14 @@ fn not_estimated(
     all.filter_map(|other| Some((other, other.prior(&case.plan).filter(|prior| prior.sd > 0.0)?))).collect()
 }
 
-/// The plan with the inputs that are not estimated at their means.
+/// The plan with all inputs that are not estimated set to their means.
 fn plan_of_not_estimated(context: &Context<'_>, unknowns: &[Unknown]) -> Plan {
     let mut plan = context.case.plan.clone();
     not_estimated(context, unknowns).iter().for_each(|(other, prior)| other.set_in(&mut plan, prior.mean));
     plan
 }
 
-/// Plausible ranges, and the parts of them that the plan expects: within three standard deviations.
+/// Plausible ranges, and the parts of them that the plan expects: within three standard deviations of the prior mean.
 fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -> SearchBox {
     let ranges: Vec<[f64; 2]> = parameters.iter().map(|parameter| parameter.range(plan)).collect();
     let expected = |(range, prior): (&[f64; 2], &Option<Prior>)| {
@@ -276,8 +278,8 @@ fn search_box(plan: &Plan, parameters: &[Parameter], priors: &[Option<Prior>]) -
     SearchBox { expected: ranges.iter().zip(priors).map(expected).collect(), ranges }
 }
 
-/// What to observe next, by the plan that `fit --write` would leave: of a shot of the option observed most. `None` where the estimates do
-/// not explain what was seen: then no shot is to be fired before they do.
+/// What to observe next in a shot of the option observed most, by the plan that `fit --write` would leave. `None` if the estimates
+/// do not explain the observations: then no shot is to be fired before they do.
 fn what_to_observe_next(context: &Context<'_>, fit: &Fit) -> Result<Option<WhatNext>, NoResult> {
     let &Context { case, sampling, .. } = context;
     let Some(sampling) = sampling.filter(|_| fit.answers[0].explains()) else { return Ok(None) };

@@ -1,4 +1,4 @@
-//! Samples of a plan: what could have been seen of its shots, how the observations lie among it, and what to observe next.
+//! Samples of a plan: which values an observer could see, where the observations lie among them, and what to observe next.
 
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};
@@ -20,25 +20,25 @@ use crate::study::work::batch::run_batch;
 use crate::study::{Case, Context, NoResult};
 use crate::verdict::Quantity;
 
-/// Least share of samples with a value, for a line through them.
+/// Least share of samples with a value that a line through them needs.
 const OFTEN_KNOWN: f64 = 0.95;
-/// Share of samples below which a tire hardly ever lifts, or lands.
+/// If fewer than this share of samples have a value, the tire hardly ever lifts or lands.
 const SELDOM_KNOWN: f64 = 0.05;
 
-/// What was planned of an observed quantity, and what could have been seen of it.
+/// Planned value of an observed quantity, and the values that an observer could see in samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Prediction {
-    /// The value of the plan; not a number where the tire never lifts, or never lands.
+    /// The value in the planned shot; NaN if the tire never lifts or never lands.
     pub planned: f64,
-    /// 5th and 95th percentile of what could have been seen, with the standard deviation of the observation, of the samples where the
-    /// tire lifts, or lands; not numbers where it hardly ever does; `None` without samples.
+    /// 5th and 95th percentile of the values that an observer could see, with the standard deviation of the observation. Only
+    /// samples in which the tire lifts, or lands, count. NaN if it hardly ever does; `None` without samples.
     pub band: Option<[f64; 2]>,
-    /// The middle one of what could have been seen; not a number where there is no band.
+    /// Median of the values that an observer could see; NaN if there is no band.
     pub middle: f64,
-    /// Correlation of what could have been seen with the inputs that repeat in every shot, negative where faster launches lessen the value;
-    /// 0 where it is not known.
+    /// Correlation of these values with the inputs that repeat in every shot. Negative if faster launches reduce the value; 0 if
+    /// unknown.
     pub in_common: f64,
-    /// What it tells of the launch, beside the others of its shot.
+    /// Information of the observation about the launch, beside the other observations of its shot.
     pub of_launch: LaunchInformation,
 }
 
@@ -46,8 +46,8 @@ pub struct Prediction {
 pub const TO_END_OF_BAND: f64 = 1.645;
 
 impl Prediction {
-    /// How far a value lies from the middle of the band in standard deviations of that side, above it or below; infinite where hardly any
-    /// shot has a value. Heights lean upward as launches scatter: each half of a band is as wide as it is.
+    /// Distance of a value from the middle of the band, in standard deviations of that side, above or below. Infinite if hardly any
+    /// shot has a value. Each side has its own width, because scatter of launches stretches heights upward.
     pub fn deviations(&self, value: f64) -> Option<f64> {
         let ([low, high], middle) = (self.band?, self.middle);
         let half = if value > middle { high - middle } else { middle - low };
@@ -61,21 +61,21 @@ impl Prediction {
     }
 }
 
-/// What one more observation would narrow most.
+/// The observation that would narrow the utilization most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NextObservation {
     /// The observation.
     pub observable: Observable,
-    /// Standard deviation that was assumed of it [SI unit].
+    /// Assumed standard deviation of the observation [SI unit].
     pub sd: f64,
-    /// Share of the variance of the utilization that the observation would take away.
+    /// Share of the variance of the utilization that the observation would remove.
     pub share: f64,
-    /// Coefficient of variation of the launch in common that a fit of the observation alone would leave [%]; `None` where the
-    /// observation hardly follows the launch.
+    /// Coefficient of variation of the launch in common after a fit of the observation alone [%]; `None` if the observation hardly
+    /// follows the launch.
     pub launch_percent: Option<f64>,
 }
 
-/// Values of what is watched in samples of one option, and their inputs in common.
+/// Values of the watched points in samples of one option, and the inputs in common of these samples.
 struct Samples {
     /// Values (`n_samples` × `n_watched`).
     values: Vec<Vec<f64>>,
@@ -84,13 +84,13 @@ struct Samples {
 }
 
 impl Samples {
-    /// The n-th value as it could have been seen in each sample, with the standard deviation `sd` of the observation.
+    /// The n-th value as an observer could see it in each sample, with an error of standard deviation `sd`.
     fn could_be_seen(&self, n: usize, sd: f64) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         self.values.iter().map(|sample| sample[n] + sd * random.sample::<f64, _>(StandardNormal)).collect()
     }
 
-    /// The inputs that repeat in the next shot, but for the launch in common (`n_inputs` × `n_samples`).
+    /// The inputs that repeat in the next shot, without the launch in common (`n_inputs` × `n_samples`).
     fn repeating_but_launch(&self) -> Vec<Vec<f64>> {
         let repeating = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats());
         let others = repeating.filter(|&n| Input::ALL[n] != Input::LaunchCommon);
@@ -104,9 +104,9 @@ impl Samples {
     }
 }
 
-/// The inputs of samples that repeat in the next shot, to which values are regressed.
+/// The inputs of samples that repeat in the next shot; values are regressed on them.
 struct InCommon {
-    /// Inputs less their means (`n_samples` × `n_repeated`).
+    /// Inputs minus their means (`n_samples` × `n_repeated`).
     centred: DMatrix<f64>,
     /// Covariance of the inputs, and its inverse.
     covariance: DMatrix<f64>,
@@ -114,7 +114,7 @@ struct InCommon {
 }
 
 impl InCommon {
-    /// `None` where the samples are too few.
+    /// `None` if there are too few samples.
     fn of(drawn: &Samples) -> Option<Self> {
         let count = drawn.values.len();
         let repeated: Vec<usize> = (0..Input::ALL.len()).filter(|&n| Input::ALL[n].repeats()).collect();
@@ -137,8 +137,8 @@ impl InCommon {
         (slopes, from_mean.norm_squared() / degrees)
     }
 
-    /// Correlation of what is seen of the n-th value, with the standard deviation `sd`, with the inputs; its sign is that of the slope over
-    /// the launch in common. `None` where some samples have no value.
+    /// Correlation of the n-th observed value with the inputs; `sd` is the standard deviation of the observation. The sign is the
+    /// sign of the slope over the launch in common. `None` if some samples have no value.
     fn correlation(&self, drawn: &Samples, n: usize, sd: f64) -> Option<f64> {
         let values = DVector::from_iterator(drawn.values.len(), drawn.values.iter().map(|sample| sample[n]));
         let (slopes, variance) = self.regression(&values);
@@ -158,7 +158,7 @@ fn samples(context: &Context<'_>, shot: &ObservedShot, sampling: &Sampling) -> R
     let runs = run_batch(&numbers, control, |&number| {
         let sample = draw_shot(case, &case.shots[shot.option], sampling.seed, number);
         let settings = case.run_settings(compute.method, sample_step(&compute, &sample.scene));
-        // In the time of the plan, as observations are.
+        // Back to the time of the plan, in which observations are given.
         let fired = sample.shot.later_by(-sample.later).with_times(&shot.times);
         let values = observe_shot(case, Some(&sample.scene), &fired, &shot.watched, &settings, control)?;
         Ok(values.map(|values| (values, sample.inputs)))
@@ -170,8 +170,8 @@ fn samples(context: &Context<'_>, shot: &ObservedShot, sampling: &Sampling) -> R
     Ok(Samples { values, inputs })
 }
 
-/// Each observation beside what the plan says of it; without a `sampling` there are no bands. The bands are those of the firing
-/// times that were measured, where some were.
+/// Prediction of the plan for each observation. Without a `sampling` there are no bands. If firing times were measured, the bands
+/// use them.
 pub fn predict_observations(
     context: &Context<'_>,
     seen: &ObservedShots,
@@ -215,17 +215,17 @@ pub fn predict_observations(
     Ok(all)
 }
 
-/// 5th, 50th and 95th percentile of what could have been seen, some of which is not known; not numbers where hardly any of it is.
+/// 5th, 50th and 95th percentile of the values that are known; NaN if hardly any is known.
 fn band(could_be_seen: &[f64]) -> Option<[f64; 3]> {
     let finite: Vec<f64> = could_be_seen.iter().copied().filter(|value| value.is_finite()).collect();
-    // Where every run failed nothing was predicted, and nothing agrees.
+    // If every run failed, nothing was predicted, and no observation agrees.
     if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * could_be_seen.len() as f64 {
         return Some([f64::NAN; 3]);
     }
     percentiles(finite.into_iter(), [0.05, 0.5, 0.95])
 }
 
-/// How far each value lies from the middle of its band, 0 where it is not known; empty where too many are not.
+/// Distance of each value from the middle of its band [standard deviations], 0 if unknown; empty if too many are unknown.
 fn deviations_often_known(prediction: &Prediction, could_be_seen: &[f64]) -> Vec<f64> {
     let deviations = could_be_seen.iter().filter_map(|value| prediction.deviations(*value));
     let deviations: Vec<f64> = deviations.map(|z| if z.is_finite() { z } else { 0.0 }).collect();
@@ -233,11 +233,12 @@ fn deviations_often_known(prediction: &Prediction, could_be_seen: &[f64]) -> Vec
     if known < OFTEN_KNOWN * could_be_seen.len() as f64 { Vec::new() } else { deviations }
 }
 
-/// The single observation of a shot of `option` that would narrow its utilization most; `None` where none would by a hundredth.
+/// The single observation in a shot of `option` that would narrow its utilization most; `None` if none removes a hundredth of its
+/// variance.
 ///
-/// 1. Only inputs in common repeat in the next shot. Let c be these inputs in a sample, Σ their covariance, and u and y the
-///    utilization and what is observed, each with its regression on c: slopes β and γ.
-/// 2. An observation with variance v = var y + sd² takes the part (βᵀΣγ)²/v from the variance of u.
+/// 1. Only inputs in common repeat in the next shot. Symbols: c are these inputs in a sample, Σ is their covariance, u is the
+///    utilization, and y is the observed value. β and γ are the slopes of u and y over c.
+/// 2. An observation has the variance v = var y + sd². It removes the part (βᵀΣγ)²/v from the variance of u.
 pub fn next_observation(
     context: &Context<'_>,
     option: usize,
@@ -277,12 +278,13 @@ pub fn next_observation(
     Ok(best)
 }
 
-/// Least share of the variance of an observation that the launch must explain, so that it tells the launch.
+/// Least share of the variance of an observation that the launch must explain. Below it, the observation does not show the launch.
 const FOLLOWS_LAUNCH: f64 = 0.2;
 
-/// What an observation with this standard deviation leaves of the launch in common [%], by a line through the logarithms of both in
-/// samples: `launch` are those of the factor. With s the scatter of the observation about the line of slope b and c the standard
-/// deviation of the launch before, it leaves 1/√(1/c² + b²/s²).
+/// Coefficient of variation of the launch in common that remains after an observation with standard deviation `sd` [%]. It follows
+/// from a line through the logarithms of both in samples; `launch` holds logarithms already. Symbols: b is the slope of the line, s
+/// is the scatter of the observation about it, and c is the standard deviation of the launch before. What remains is 1/√(1/c² +
+/// b²/s²).
 fn launch_percent(launch: &[f64], values: &[f64], sd: f64) -> Option<f64> {
     let pairs: Vec<(f64, f64)> = launch
         .iter()
@@ -298,14 +300,14 @@ fn launch_percent(launch: &[f64], values: &[f64], sd: f64) -> Option<f64> {
     };
     let [xx, xy, yy] = [sum(&|x, _| x * x), sum(&|x, y| x * y), sum(&|_, y| y * y)];
     let explained = xy * xy / (xx * yy);
-    // Most samples must have a value: of those that rise alone the line would be another.
+    // Most samples must have a value: a line through only the samples in which the tire rises would be another line.
     let is_known = count >= OFTEN_KNOWN * launch.len() as f64 && explained > FOLLOWS_LAUNCH;
     let slope = xy / xx;
     let scatter = (yy - xy * xy / xx).max(0.0) + (sd / mean_y.exp()).powi(2);
     is_known.then(|| 1e2 * (1.0 / xx + slope * slope / scatter).sqrt().recip())
 }
 
-/// Greatest share of a limit among the values of everything that could be watched.
+/// Utilization of a sample: the greatest share of a limit among all watched values.
 fn utilization(case: &Case, watched: &[ObservedPoint], values: &[f64]) -> f64 {
     case.limits.utilization(|quantity| {
         let wanted = match quantity {

@@ -1,4 +1,4 @@
-//! Values of observed quantities in one run: what somebody would have seen of it.
+//! Records observed quantities in one run: the values that an observer would see.
 
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::ObservedPoint;
@@ -7,37 +7,37 @@ use crate::simulation::Motion;
 /// Height above which a tire has visibly left the ground [m].
 const OFF_THE_GROUND: f64 = 1e-3;
 
-/// Watches quantities through one run.
+/// Records quantities through one run.
 pub struct ObservationRecorder<'w> {
     watched: &'w [ObservedPoint],
     tracks: Vec<Track>,
     time: f64,
 }
 
-/// What is kept of one quantity.
+/// State of one recorded quantity.
 #[derive(Clone, Copy, Default)]
 struct Track {
-    /// The last two samples, as times [s] and values; the later one second.
+    /// The last two recorded values, as time [s] and value; the later one second.
     last: [(f64, f64); 2],
-    /// The greatest value so far, between samples too.
+    /// The greatest value so far, also between steps.
     greatest: f64,
-    /// Time at which the present flight began; `None` on the ground, and until two samples of the flight tell.
+    /// Start of the present flight [s]; `None` on the ground, and until two values of the flight are recorded.
     left: Option<f64>,
-    /// Beginning of the first flight that is visibly off the ground.
+    /// Start of the first flight that is visibly off the ground [s].
     lift: Option<f64>,
-    /// Time at which the tire lands after that.
+    /// Time at which that flight ends [s].
     landing: Option<f64>,
-    /// The value at the time asked for.
+    /// The value at the requested time.
     at_time: Option<f64>,
 }
 
 impl<'w> ObservationRecorder<'w> {
-    /// Watches these quantities from time 0 on.
+    /// Records these quantities from time 0 on.
     pub fn new(watched: &'w [ObservedPoint]) -> Self {
         Self { watched, tracks: vec![Track::default(); watched.len()], time: 0.0 }
     }
 
-    /// Sees the motion after a step.
+    /// Records the motion after a step.
     pub fn observe(&mut self, motion: &dyn Motion) {
         let time = motion.time();
         if time <= self.time {
@@ -54,8 +54,8 @@ impl<'w> ObservationRecorder<'w> {
         }
     }
 
-    /// The value of each quantity [its SI unit], in their order; not a number where the tire never lifts or never lands, nor of a
-    /// height after a run that did not end `at_rest`.
+    /// The value of each quantity [its SI unit], in their order. NaN if the tire never lifts or never lands. Also NaN for a height
+    /// after the end of a run that did not end `at_rest`.
     pub fn values(&self, at_rest: bool) -> Vec<f64> {
         let value = |(watched, track): (&ObservedPoint, &Track)| match watched.quantity {
             ObservedQuantity::FlightHeight | ObservedQuantity::Force => track.greatest,
@@ -71,7 +71,7 @@ impl<'w> ObservationRecorder<'w> {
 }
 
 impl Track {
-    /// Notes a sample.
+    /// Records a value at a time. `asked` is the requested time [s].
     fn note(&mut self, time: f64, value: f64, asked: f64) {
         let [before, (from, old)] = self.last;
         self.greatest = self.greatest.max(value).max(top(before, (from, old), (time, value)));
@@ -82,7 +82,7 @@ impl Track {
         if value <= 0.0 {
             self.left = None;
         } else if self.left.is_none() && old > 0.0 {
-            // The straight line through the first two samples of the flight meets the ground within the step before them.
+            // The straight line through the first two values of the flight meets the ground within the step before them.
             let rise = (value - old) / (time - from);
             let ground = if rise > 0.0 { from - old / rise } else { before.0 };
             self.left = Some(ground.clamp(before.0, from));
@@ -99,7 +99,7 @@ impl Track {
     }
 }
 
-/// Top of the parabola through three samples, where the middle one is the greatest and all are above 0; else 0.
+/// Top of the parabola through three values if the middle one is the greatest and all are above 0; else 0.
 fn top(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
     let (left, right) = (b.0 - a.0, c.0 - b.0);
     if !(a.1 > 0.0 && c.1 > 0.0 && b.1 > a.1 && b.1 >= c.1 && left > 0.0 && right > 0.0) {
@@ -107,7 +107,7 @@ fn top(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
     }
     let [rise, fall] = [(b.1 - a.1) / left, (c.1 - b.1) / right];
     let curvature = (fall - rise) / (left + right);
-    // Slope at the middle sample.
+    // Slope at the middle value.
     let slope = (rise * right + fall * left) / (left + right);
     b.1 - slope * slope / (4.0 * curvature)
 }
@@ -116,7 +116,7 @@ fn top(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
 mod tests {
     use super::*;
 
-    /// Thrown up at 5 m/s at 12.3 ms: rises 25/2g, lands 10/g later; steps of 1 ms.
+    /// Thrown up at 5 m/s at 12.3 ms, the tire rises 25/2g and lands 10/g later. The steps are 1 ms.
     #[test]
     fn a_throw_is_seen_between_the_steps() {
         let (fired, gravity) = (0.0123, 9.81);
@@ -131,7 +131,7 @@ mod tests {
         }])
         .tracks[0];
         (1..2000).map(|n| f64::from(n) * 1e-3).for_each(|time| track.note(time, height(time), 0.4005));
-        // The parabola is exact but for rounding; a straight line errs by g h²/8 = 1.2 µm, the lift by up to g h²/v = 2 µs.
+        // The parabola is exact up to rounding. A straight line errs by g h²/8 = 1.2 µm, and the lift by up to g h²/v = 2 µs.
         assert!((track.greatest - 25.0 / 2.0 / gravity).abs() < 1e-9, "{}", track.greatest);
         assert!((track.at_time.expect("seen") - height(0.4005)).abs() < 1.3e-6);
         assert!((track.lift.expect("lifts") - fired).abs() < 2e-6, "{:?}", track.lift);

@@ -1,4 +1,4 @@
-//! Observations by shot: each one option in one file.
+//! Observations grouped by shot. A shot is one option in one file.
 
 use std::ops::Range;
 
@@ -7,19 +7,19 @@ use itertools::Itertools;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations, ObservedPoint};
 use crate::sorting::sort_by_key;
 
-/// Observations, each with the number of its file, in the order of their options, then files.
+/// Observations, each with the index of its file, sorted by option, then by file.
 #[derive(Clone, Debug)]
 pub struct ObservedShots {
-    /// The observations.
+    /// The observations (`n_observations`).
     pub list: Vec<Observation>,
-    /// Index of the file of each.
+    /// Index of the file of each observation (`n_observations`).
     pub file: Vec<usize>,
-    /// Firing times that were measured (`n_files`).
+    /// Measured firing times of each file (`n_files`).
     pub firings: Vec<Vec<MeasuredFiring>>,
 }
 
 impl ObservedShots {
-    /// The observations of all files; those of a file that repeats another count once.
+    /// The observations of all files. A file with the same content as an earlier file does not count again.
     pub fn new(files: &[Observations]) -> Self {
         let of_file = |(n, file): (usize, &Observations)| {
             file.list.iter().map(move |seen| (n, *seen)).collect::<Vec<_>>()
@@ -31,7 +31,8 @@ impl ObservedShots {
         Self { list, file, firings: files.iter().map(|file| file.firings.clone()).collect() }
     }
 
-    /// The shots, of which those of one option with the same firing times are one: without scatter they are alike.
+    /// The shots, without duplicates: shots of one option with the same firing times become one, because without scatter they are
+    /// alike.
     pub fn distinct_shots(&self) -> Vec<ObservedShot> {
         let mut distinct: Vec<ObservedShot> = Vec::new();
         for shot in self.shots() {
@@ -45,7 +46,7 @@ impl ObservedShots {
         distinct
     }
 
-    /// The shots: each one option in one file.
+    /// The shots: one for each option in each file.
     pub fn shots(&self) -> Vec<ObservedShot> {
         let mut shots: Vec<ObservedShot> = Vec::new();
         let mut last = None;
@@ -64,21 +65,21 @@ impl ObservedShots {
     }
 }
 
-/// What was watched of one shot.
+/// One observed shot, and the points watched in it.
 #[derive(Clone, Debug)]
 pub struct ObservedShot {
     /// Index of the delay option.
     pub option: usize,
-    /// Tires above holes whose firing times were measured, and these times [s].
+    /// Tires above holes with measured firing times, and these times [s].
     pub times: Vec<(usize, f64)>,
-    /// What was watched, in the order of the observations.
+    /// Watched points, in the order of the observations.
     pub watched: Vec<ObservedPoint>,
-    /// Index of its first observation.
+    /// Index of the first observation of the shot.
     pub first: usize,
 }
 
 impl ObservedShot {
-    /// Indices of its observations.
+    /// Indices of the observations of the shot.
     pub fn observations(&self) -> Range<usize> {
         self.first..self.first + self.watched.len()
     }

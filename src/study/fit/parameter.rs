@@ -1,8 +1,7 @@
-//! The numbers that a fit estimates: their coordinates, their plausible ranges, what the plan knows of them, and their effect on
-//! a plan.
+//! The numbers that a fit estimates: their coordinates, plausible ranges, priors in the plan, and effect on a plan.
 //!
-//! Numbers that are factors by nature (launch, stiffness) have their logarithm as coordinate: a coordinate then has an even scale,
-//! and a standard deviation of the coordinate is a relative one of the number.
+//! Launch and stiffness act as factors, so their coordinate is the logarithm of the number. The scale is then even, and a standard
+//! deviation of the coordinate is a relative standard deviation of the number.
 
 use crate::choice::Unknown;
 use crate::plan::write_fit::StatedKeys;
@@ -11,13 +10,13 @@ use crate::plan::{Launch, LaunchTargets, Plan};
 /// One number to estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parameter {
-    /// What it is.
+    /// The unknown that the number belongs to.
     pub unknown: Unknown,
-    /// Index of the blast row, of a launch by row.
+    /// Index of the blast row, for a launch by row.
     pub row: Option<usize>,
 }
 
-/// What is known of a coordinate before the observations: mean and standard deviation.
+/// Knowledge of a coordinate before the observations: mean and standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prior {
     /// Mean.
@@ -27,12 +26,12 @@ pub struct Prior {
 }
 
 impl Prior {
-    /// Of a uniform distribution between two ends: the one with the same mean and standard deviation.
+    /// The prior with the mean and standard deviation of a uniform distribution between two ends.
     fn between([low, high]: [f64; 2]) -> Self {
         Self { mean: 0.5 * (low + high), sd: (high - low) / 12.0_f64.sqrt() }
     }
 
-    /// Of the logarithm of a lognormal factor with mean 1.
+    /// The prior of the logarithm of a lognormal factor with mean 1 and coefficient of variation `cv_percent` [%].
     pub fn lognormal(cv_percent: f64) -> Self {
         let variance = (cv_percent * 1e-2).powi(2).ln_1p();
         Self { mean: -0.5 * variance, sd: variance.sqrt() }
@@ -40,7 +39,7 @@ impl Prior {
 }
 
 impl Parameter {
-    /// The numbers behind these unknowns.
+    /// The numbers behind these unknowns: one per blast row for launches by row, else one per unknown.
     pub fn all(unknowns: &[Unknown], plan: &Plan) -> Vec<Self> {
         let of = |&unknown: &Unknown| -> Vec<Self> {
             match unknown {
@@ -53,7 +52,7 @@ impl Parameter {
         unknowns.iter().flat_map(of).collect()
     }
 
-    /// The inputs that `[uncertainty]` knows in common for a whole shot, and that are not asked for.
+    /// Inputs that `[uncertainty]` gives in common for a whole shot, and that the fit does not estimate.
     pub fn not_estimated(unknowns: &[Unknown]) -> Vec<Self> {
         let mut unknowns_left = vec![Unknown::Friction, Unknown::Slack, Unknown::AxialStiffness];
         if !unknowns.contains(&Unknown::LaunchByRow) {
@@ -63,7 +62,7 @@ impl Parameter {
         unknowns_left.into_iter().map(|unknown| Self { unknown, row: None }).collect()
     }
 
-    /// Name that scripts read: that of the unknown, with that of the row.
+    /// Name that scripts read: the unknown, then the row in brackets if there is one.
     pub fn name(&self, plan: &Plan) -> String {
         let row = self.row.map(|row| format!("[{}]", plan.blast_rows[row].name));
         format!("{}{}", self.unknown, row.unwrap_or_default())
@@ -83,7 +82,7 @@ impl Parameter {
         !matches!(self.unknown, Unknown::Friction | Unknown::Slack | Unknown::Damping)
     }
 
-    /// The number at a coordinate, in its unit.
+    /// The number at a coordinate [unit of the number].
     pub fn value(&self, at: f64) -> f64 {
         if self.is_logarithmic() { at.exp() } else { at }
     }
@@ -93,12 +92,12 @@ impl Parameter {
         if self.is_logarithmic() { value.ln() } else { value }
     }
 
-    /// Standard deviation of the number, from that of its coordinate.
+    /// Standard deviation of the number [unit of the number], from the standard deviation `sd` of its coordinate.
     pub fn sd_of_value(&self, at: f64, sd: f64) -> f64 {
         if self.is_logarithmic() { self.value(at) * sd } else { sd }
     }
 
-    /// The number that the plan has; `None` for ends that are stiff.
+    /// The number in the plan; `None` for ends that are stiff.
     pub fn planned(&self, plan: &Plan) -> Option<f64> {
         match self.unknown {
             Unknown::Launch | Unknown::LaunchByRow => Some(1.0),
@@ -110,7 +109,7 @@ impl Parameter {
         }
     }
 
-    /// Plausible range of the coordinate, which holds the number of the plan.
+    /// Plausible range of the coordinate. The range includes the number of the plan.
     pub fn range(&self, plan: &Plan) -> [f64; 2] {
         let planned = self.planned(plan);
         let [low, high] = match self.unknown {
@@ -129,7 +128,7 @@ impl Parameter {
         held.map(|end| self.coordinate(end))
     }
 
-    /// What `[uncertainty]` says of the coordinate, as far as the plan states it; `None` where it says nothing.
+    /// The prior that `[uncertainty]` states for the coordinate; `None` if the plan does not state it.
     pub fn stated_prior(&self, plan: &Plan, stated: &StatedKeys) -> Option<Prior> {
         let is_stated = match self.unknown {
             Unknown::Launch | Unknown::LaunchByRow => stated.launch_common,
@@ -141,7 +140,7 @@ impl Parameter {
         if is_stated { self.prior(plan) } else { None }
     }
 
-    /// What the plan knows of the coordinate, by its own keys or by default; `None` where there is no key for it.
+    /// The prior of the coordinate, stated in the plan or by default; `None` if the plan has no key for it.
     pub fn prior(&self, plan: &Plan) -> Option<Prior> {
         let uncertainty = &plan.uncertainty;
         match self.unknown {
@@ -159,7 +158,7 @@ impl Parameter {
         }
     }
 
-    /// Puts the number at a coordinate into a plan; launches count from those of the plan.
+    /// Sets the number at a coordinate in a plan. A launch is a factor on the launches of the plan.
     pub fn set_in(&self, plan: &mut Plan, at: f64) {
         let value = self.value(at);
         match self.unknown {

@@ -1,4 +1,4 @@
-//! What a plan predicts of observed quantities, for given values of the parameters.
+//! Predictions of a plan for observed quantities, at given values of the parameters.
 
 use std::ops::ControlFlow;
 
@@ -13,22 +13,22 @@ use crate::scene::{Scene, Shot};
 use crate::simulation::{Motion, RunSettings};
 use crate::study::{Case, ComputeSettings, NoResult, StudyControl};
 
-/// Quantities watched in the shots of a plan, and the parameters on which they depend.
+/// Quantities watched in the shots of a plan, and the parameters that change them.
 pub struct Predictor<'p> {
-    /// The plan, but for the parameters.
+    /// The plan. Its parameters are replaced.
     pub plan: Plan,
     /// The parameters, in the order of their coordinates.
     pub parameters: Vec<Parameter>,
-    /// The shots, with what is watched in each.
+    /// The shots, and the points watched in each.
     pub shots: Vec<ObservedShot>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
-    /// How far the study is, and whether it goes on.
+    /// Progress of the study, and whether it goes on.
     pub control: &'p StudyControl,
 }
 
 impl Predictor<'_> {
-    /// The plan at these coordinates of the parameters, made ready to run.
+    /// The plan with the parameters at these coordinates, ready to run.
     pub fn case(&self, at: &[f64]) -> Case {
         let mut plan = self.plan.clone();
         for (parameter, &coordinate) in self.parameters.iter().zip(at) {
@@ -37,8 +37,7 @@ impl Predictor<'_> {
         Case::new(plan)
     }
 
-    /// The values of everything watched, shot by shot, in a run whose step is `coarser` times the usual one; `None` where a run
-    /// fails.
+    /// The values of all watched points, shot by shot, at `coarser` times the usual step; `None` if a run fails.
     pub fn values(&self, at: &[f64], coarser: f64) -> Result<Option<Vec<f64>>, NoResult> {
         let case = self.case(at);
         let mut all = Vec::new();
@@ -54,7 +53,7 @@ impl Predictor<'_> {
     }
 }
 
-/// The values of what is watched in one shot, under a `variant` of the scene where there is one; `None` where the run fails.
+/// The values of the watched points in one shot, under the scene `variant` if there is one; `None` if the run fails.
 pub fn observe_shot(
     case: &Case,
     variant: Option<&Scene>,
@@ -63,7 +62,7 @@ pub fn observe_shot(
     settings: &RunSettings,
     control: &StudyControl,
 ) -> Result<Option<Vec<f64>>, NoResult> {
-    // A run begins at time 0: where a hole fires before, all is moved, and moved back in what is seen.
+    // A run begins at time 0. If a hole fires earlier, all times move later here, and back in the values.
     let early = shot.firings.first().map_or(0.0, |firing| -firing.time.min(0.0));
     let shot = &shot.later_by(early);
     let later = |watched: &ObservedPoint| ObservedPoint { time: watched.time + early, ..*watched };

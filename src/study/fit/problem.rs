@@ -1,4 +1,4 @@
-//! A fit under way: residuals, answers near minima, and what an answer tells.
+//! A fit in progress: residuals, answers near minima, and the contents of an answer.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,16 +14,16 @@ use crate::sorting::sort_by;
 use crate::study::work::batch::run_batch;
 use crate::study::{Case, NoResult};
 
-/// Misfit above the least up to which another answer is told: its likelihood is 1/20 of the best.
+/// Another answer is reported if its misfit is at most this much above the least: its likelihood is then 1/20 of the best.
 const NEARLY_EQUAL: f64 = 6.0;
 
-/// The same for answers that are yet to be settled.
+/// The same bound for answers that are not final yet.
 const WORTH_SETTLING: f64 = 40.0;
 
-/// Most answers that are settled.
+/// Greatest number of answers that are made final.
 const MOST_SETTLED: usize = 6;
 
-/// A fit under way.
+/// A fit in progress.
 pub(super) struct FitProblem<'p> {
     pub predictor: Predictor<'p>,
     pub space: SearchBox,
@@ -35,31 +35,32 @@ pub(super) struct FitProblem<'p> {
     pub seed: Option<u64>,
 }
 
-/// Spread of the samples about an answer, over its standard deviation: wide enough for slopes that samples hardly blur.
+/// Spread of the samples about an answer, over its standard deviation: wide enough that the scatter of the samples hardly blurs the
+/// slopes.
 const SPREAD: f64 = 1.5;
 
 /// Least and greatest spread, as a share of the range.
 const SPREADS: [f64; 2] = [5e-3, 0.15];
 
-/// Most times that samples are drawn about an answer.
+/// Greatest number of times that samples are drawn about an answer.
 const MOST_ROUNDS: usize = 6;
 
-/// Shares of what is left that the covariance takes, and the search of minima; the answer near each takes the rest.
+/// Shares of the remaining progress for the covariance and for the search of minima. The answers near the minima take the rest.
 const SHARE_OF_SAMPLES: f64 = 0.1;
 const SHARE_OF_SEARCH: f64 = 0.3;
 
 impl FitProblem<'_> {
-    /// Where the search begins: at what the plan states, or at its own numbers.
+    /// Where the search begins: at the means that the plan states, or at its own numbers.
     pub fn start_coordinates(&self, plan: &Plan) -> Vec<f64> {
         let start = |(n, parameter): (usize, &Parameter)| {
             let planned = || parameter.planned(plan).map(|planned| parameter.coordinate(planned));
-            // Stiff ends are at the stiff end of their range.
+            // Stiff ends begin at the stiff end of their range.
             self.priors[n].map(|prior| prior.mean).or_else(planned).unwrap_or(self.space.ranges[n][1])
         };
         self.predictor.parameters.iter().enumerate().map(start).collect()
     }
 
-    /// Independent residuals of unit variance: those of the observations, then those of what the plan states.
+    /// Independent residuals of unit variance: first of the observations, then of the priors.
     fn residuals(
         &self,
         at: &[f64],
@@ -123,7 +124,7 @@ impl FitProblem<'_> {
         }))
     }
 
-    /// The spread of samples for these standard deviations of the coordinates.
+    /// Spread of the samples for the standard deviations `sd` of the coordinates.
     fn sample_spread(&self, sd: impl Fn(usize) -> f64) -> Vec<f64> {
         let of_range = |(n, [low, high]): (usize, &[f64; 2])| {
             let [least, most] = SPREADS.map(|share| share * (high - low));
@@ -132,7 +133,7 @@ impl FitProblem<'_> {
         self.space.ranges.iter().enumerate().map(of_range).collect()
     }
 
-    /// The answer near a minimum where nothing scatters.
+    /// The answer near a minimum if nothing scatters.
     fn settle(
         &self,
         model: &CovarianceModel<'_>,
@@ -148,8 +149,8 @@ impl FitProblem<'_> {
         Ok(Some(RefinedAnswer { minimum, predicted, slopes, over_shot_factor, covariance, is_settled: true }))
     }
 
-    /// The answer near a minimum, for the mean of what scatter makes of the predictions: samples about the answer give the mean,
-    /// its slopes and the covariance of the observations; these give the next answer.
+    /// The answer near a minimum for the mean predictions under scatter. Samples about an answer give the mean, its slopes and the
+    /// covariance of the observations. These give the next answer.
     fn settle_among_samples(
         &self,
         model: &CovarianceModel<'_>,
@@ -180,7 +181,7 @@ impl FitProblem<'_> {
             }
             let of_coordinates = self.space.inverse(precision);
             let step = &of_coordinates * pull;
-            // A straight line holds no farther than the samples spread.
+            // The straight line holds no farther than the samples spread.
             let share = (0..count).map(|n| step[n].abs() / (2.0 * spread[n])).fold(1.0, f64::max);
             let next: Vec<f64> = (0..count).map(|n| at[n] + step[n] / share).collect();
             let next = self.space.clamped(&next);
@@ -195,7 +196,7 @@ impl FitProblem<'_> {
                 mean.iter().zip((&slopes * &moved).iter()).map(|(mean, change)| mean + change).collect();
             let minimum = Minimum { point: next, misfit, covariance: of_coordinates };
             let wanted = self.sample_spread(|n| minimum.sd(n));
-            // Samples about the next answer would tell the same: it lies well inside these, which spread as far.
+            // Samples about the next answer would show the same: it lies well inside the present samples, which spread as far.
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_settled = (0..count).all(is_near);
@@ -209,7 +210,7 @@ impl FitProblem<'_> {
         Ok(settled)
     }
 
-    /// Why the run at these coordinates fails.
+    /// The reason why the run at these coordinates fails.
     pub fn failure(&self, at: &[f64]) -> NoResult {
         let case = self.predictor.case(at);
         let settings =
@@ -222,7 +223,7 @@ impl FitProblem<'_> {
         failure.map_or(NoResult::OutOfTime, |failure| self.predictor.control.no_result(failure))
     }
 
-    /// Derivatives of the predictions at a minimum, whose `values` are these.
+    /// Derivatives of the predictions at a minimum; `values` are the predictions there.
     fn slopes(&self, minimum: &Minimum, values: &[f64]) -> Result<DMatrix<f64>, NoResult> {
         let predictions = |at: &[f64]| Ok(self.predictor.values(at, 1.0)?.map(DVector::from_vec));
         let difference = |n: usize| {

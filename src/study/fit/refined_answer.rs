@@ -1,26 +1,26 @@
-//! An answer of a fit near a minimum, with what its samples tell of its neighbourhood.
+//! An answer of a fit near a minimum, with the predictions around it from samples.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::covariance::ObservationCovariance;
 use super::search::Minimum;
 
-/// An answer with what is known of its neighbourhood.
+/// An answer, and what is known of its neighborhood.
 pub(super) struct RefinedAnswer {
     pub minimum: Minimum,
-    /// The predictions there.
+    /// The predictions at the answer (`n_observations`).
     pub predicted: Vec<f64>,
-    /// Their derivatives (`n_observations` × `n_parameters`).
+    /// Derivatives of the predictions (`n_observations` × `n_parameters`).
     pub slopes: DMatrix<f64>,
-    /// Their change over a standard deviation of the launch factor of their shot (`n_observations`).
+    /// Change of each prediction over a standard deviation of the launch factor of its shot (`n_observations`).
     pub over_shot_factor: DVector<f64>,
     pub covariance: ObservationCovariance,
-    /// Whether the last round changed little.
+    /// Whether the answer is final: the last round changed little.
     pub is_settled: bool,
 }
 
 impl RefinedAnswer {
-    /// −2 × the logarithm of the likelihood, but for a constant.
+    /// −2 times the logarithm of the likelihood, up to a constant.
     pub fn unlikelihood(&self) -> f64 {
         self.minimum.misfit + self.covariance.log_determinant
     }

@@ -1,14 +1,16 @@
-//! All minima of a sum of squares over a box: starts across the box, each refined by damped Gauss–Newton steps.
+//! All minima of a sum of squares over a box. Starts lie across the box; damped Gauss–Newton steps refine the lowest of them.
 //!
-//! The crate `levenberg-marquardt` (0.15) is on nalgebra 0.34, a second copy of what this crate uses in 0.35. It is also made for
-//! smooth functions with exact derivatives, and the height of a tire against its launch velocity is not smooth: it has kinks where
-//! a cable catches, and steps where a tire is launched anew. So the derivatives here are central differences over about half a
-//! standard deviation of the estimate, never over less than a thousandth of the range: roughness below that does not count.
+//! The crate `levenberg-marquardt` (0.15) does not serve here. It depends on nalgebra 0.34, a second copy beside the 0.35 of this
+//! crate. It also needs smooth functions with exact derivatives. The height of a tire over its launch velocity is not smooth: it
+//! has kinks where a cable catches, and steps where a tire is launched anew. So the derivatives here are central differences over
+//! about half a standard deviation of the estimate, and never over less than a thousandth of the range. Smaller roughness does not
+//! count.
 //!
 //! One refinement, with residuals r, their derivatives J, and a damping λ (Marquardt 1963):
-//! 1. d solves (JᵀJ + λ diag JᵀJ) d = −Jᵀr over the coordinates that do not press against an end of their range;
-//! 2. where r falls at the next point, it is taken and λ falls; else λ rises, and after some tries the differences narrow;
-//! 3. it ends where the sum of squares falls no more.
+//! 1. Solve (JᵀJ + λ diag JᵀJ) d = −Jᵀr for the step d, without the coordinates that press against an end of their range.
+//! 2. If the sum of squares falls at the next point, go there and lower λ. Else raise λ and try again. If all tries fail, narrow
+//!    the differences.
+//! 3. End when the sum of squares falls no more and the differences are at their narrowest.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -16,24 +18,24 @@ use crate::sorting::sort_by;
 use crate::study::work::batch::run_batch;
 use crate::study::{NoResult, StudyControl};
 
-/// The residuals at given coordinates; `None` where a run fails. Their number never changes.
+/// The residuals at given coordinates; `None` if a run fails. Their number is the same everywhere.
 pub type Residuals<'f> = dyn Fn(&[f64]) -> Result<Option<DVector<f64>>, NoResult> + Sync + 'f;
 
-/// The box that is searched.
+/// The box to search.
 #[derive(Clone, Debug)]
 pub struct SearchBox {
     /// Ends of each coordinate (`n_parameters`).
     pub ranges: Vec<[f64; 2]>,
-    /// The part of each range in which the minimum is expected; half of the starts lie there.
+    /// The part of each range that should hold the minimum. Half of the starts lie there.
     pub expected: Vec<[f64; 2]>,
 }
 
 /// A minimum of the sum of squares.
 #[derive(Clone, Debug)]
 pub struct Minimum {
-    /// Its coordinates.
+    /// Coordinates of the minimum.
     pub point: Vec<f64>,
-    /// The sum of squares.
+    /// Sum of squares at the minimum.
     pub misfit: f64,
     /// Inverse of JᵀJ: the covariance of the coordinates.
     pub covariance: DMatrix<f64>,
@@ -45,24 +47,24 @@ impl Minimum {
         self.covariance[(n, n)].max(0.0).sqrt()
     }
 
-    /// Whether two minima are one answer: no coordinate differs by more than two standard deviations.
+    /// Whether two minima are the same answer: no coordinate differs by more than two standard deviations.
     pub fn is_same(&self, other: &Self) -> bool {
         let near = |n: usize| (self.point[n] - other.point[n]).abs() <= 2.0 * self.sd(n).max(other.sd(n));
         (0..self.point.len()).all(near)
     }
 }
 
-/// Most starts that are refined.
+/// Greatest number of starts that are refined.
 const MOST_REFINED: usize = 10;
-/// Share of the search that the starts take.
+/// Share of the progress of a search that the starts take.
 const SHARE_OF_STARTS: f64 = 0.3;
-/// Most steps of a refinement.
+/// Greatest number of steps of a refinement.
 const MOST_STEPS: usize = 20;
-/// Least and greatest distance of a difference to each side, as a share of the range.
+/// Least and greatest reach of a difference to each side, as a share of the range.
 const DIFFERENCE: [f64; 2] = [1e-3, 2e-2];
-/// Standard deviation of a coordinate that nothing depends on, over its range.
+/// Standard deviation of a coordinate without any effect, over its range.
 const UNKNOWN: f64 = 10.0;
-/// Fall of the sum of squares that is none.
+/// A fall of the sum of squares up to this counts as none.
 const NO_FALL: f64 = 1e-3;
 
 impl SearchBox {
@@ -76,7 +78,7 @@ impl SearchBox {
         point.iter().zip(&self.ranges).map(|(value, [low, high])| value.clamp(*low, *high)).collect()
     }
 
-    /// Starts: `own`, and points spread evenly over the box and over the part in which the minimum is expected.
+    /// Starts: `own`, then points spread evenly over the box and over the part that should hold the minimum.
     fn starts(&self, own: &[f64]) -> Vec<Vec<f64>> {
         let dimensions = self.ranges.len();
         let count = [97, 160, 320, 480][(dimensions - 1).min(3)];
@@ -96,7 +98,7 @@ impl SearchBox {
         starts
     }
 
-    /// All minima whose sum of squares may be the least, from the least on.
+    /// All minima that may have the least sum of squares, sorted from the least.
     pub fn minima(
         &self,
         own: &[f64],
@@ -123,7 +125,7 @@ impl SearchBox {
         Ok(distinct(minima))
     }
 
-    /// Whether no start among the nearest to this one has a smaller sum of squares.
+    /// Whether no start near this one has a smaller sum of squares.
     fn is_lowest_near(&self, n: usize, starts: &[Vec<f64>], misfits: &[f64]) -> bool {
         if !misfits[n].is_finite() {
             return false;
@@ -137,13 +139,13 @@ impl SearchBox {
         neighbours.iter().take(2 * self.ranges.len()).all(|&other| misfits[n] <= misfits[other])
     }
 
-    /// The minimum below a start; `None` where the run at the start fails.
+    /// The minimum that a start leads to; `None` if the run at the start fails.
     pub fn refine(&self, start: &[f64], residuals: &Residuals<'_>) -> Result<Option<Minimum>, NoResult> {
         let mut point = self.clamped(start);
         let Some(mut r) = residuals(&point)? else { return Ok(None) };
         let count = point.len();
         let mut difference: Vec<f64> = (0..count).map(|n| 0.5 * DIFFERENCE[1] * self.width(n)).collect();
-        // Damping of Levenberg and Marquardt: what it begins with, and by what it changes, costs steps and changes no answer.
+        // Damping of Levenberg and Marquardt. Its first value and its factors cost steps, but change no answer.
         let mut damping = 1e-3;
         for _ in 0..MOST_STEPS {
             let slopes = self.slopes(&point, &r, &difference, residuals)?;
@@ -208,7 +210,7 @@ impl SearchBox {
                 beside[n] = (point[n] + side * difference[n]).clamp(self.ranges[n][0], self.ranges[n][1]);
                 beside
             };
-            // In place of a side whose run fails stands the middle.
+            // If the run on one side fails, the middle replaces that side.
             let end = |side: f64| -> Result<(f64, DVector<f64>), NoResult> {
                 let place = beside(side);
                 Ok(residuals(&place)?.map_or_else(|| (point[n], r.clone()), |there| (place[n], there)))
@@ -221,12 +223,12 @@ impl SearchBox {
         Ok(slopes)
     }
 
-    /// Inverse of JᵀJ; a coordinate on which the residuals do not depend has a standard deviation of [`UNKNOWN`] times its range.
+    /// Inverse of JᵀJ. A coordinate without effect on the residuals gets a standard deviation of [`UNKNOWN`] times its range.
     fn covariance(&self, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         self.inverse(slopes.transpose() * slopes)
     }
 
-    /// Inverse of a precision of the coordinates, likewise.
+    /// Inverse of a precision matrix of the coordinates. A coordinate with no information is treated in the same way.
     pub fn inverse(&self, mut normal: DMatrix<f64>) -> DMatrix<f64> {
         for n in 0..self.ranges.len() {
             normal[(n, n)] += (UNKNOWN * self.width(n)).powi(-2);
@@ -238,7 +240,7 @@ impl SearchBox {
         normal.cholesky().map_or_else(nothing_known, |factor| factor.inverse())
     }
 
-    /// The point that one damped step leads to.
+    /// The point after one damped step.
     fn step(&self, point: &[f64], r: &DVector<f64>, slopes: &DMatrix<f64>, damping: f64) -> Vec<f64> {
         let gradient = slopes.transpose() * r;
         let mut normal = slopes.transpose() * slopes;
@@ -260,7 +262,7 @@ impl SearchBox {
     }
 }
 
-/// The minima, each once.
+/// The minima without duplicates.
 fn distinct(minima: Vec<Minimum>) -> Vec<Minimum> {
     minima.into_iter().fold(Vec::new(), |mut all: Vec<Minimum>, minimum| {
         if !all.iter().any(|known| known.is_same(&minimum)) {
@@ -272,7 +274,8 @@ fn distinct(minima: Vec<Minimum>) -> Vec<Minimum> {
 
 const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 
-/// Member `n` of the sequence of van der Corput: evenly spread over 0 to 1, in several bases at once over a box (Halton 1960).
+/// Member `n` of the sequence of van der Corput, evenly spread over 0 to 1. With one base per coordinate the points fill a box
+/// (Halton 1960).
 fn van_der_corput(mut n: usize, base: usize) -> f64 {
     let (mut share, mut digit) = (0.0, 1.0 / base as f64);
     while n > 0 {

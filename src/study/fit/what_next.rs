@@ -1,4 +1,4 @@
-//! What to observe next: of a shot that no verdict forbids to fire.
+//! What to observe next, in a shot that no verdict forbids to fire.
 
 use super::observation_bands::{NextObservation, next_observation};
 use crate::study::judge::OptionResults;
@@ -16,14 +16,14 @@ pub enum WhatNext {
         /// The verdict on its option; never a fail.
         verdict: Verdict,
     },
-    /// None of these options may be fired: each fails, or has no result.
+    /// None of these options may be fired: each fails or has no result.
     NoneMayBeFired(Vec<usize>),
-    /// No single observation would narrow a verdict by a hundredth.
+    /// No single observation would remove a hundredth of the variance of a utilization.
     NothingNarrows,
 }
 
 impl WhatNext {
-    /// The observation, where there is one.
+    /// The observation, if there is one.
     pub fn observation(&self) -> Option<&NextObservation> {
         match self {
             WhatNext::Observe { next, .. } => Some(next),
@@ -32,17 +32,17 @@ impl WhatNext {
     }
 }
 
-/// Share of what is left that the verdicts take.
+/// Share of the remaining progress that the verdicts take.
 const SHARE_OF_VERDICTS: f64 = 0.5;
 
-/// The single observation of a shot of any option that does not fail, by the verdicts of `check`, that would narrow the utilization of
-/// that option most.
+/// The single observation that would narrow the utilization of its option most. It looks at all options that do not fail by the
+/// verdicts of `check`.
 pub fn next_observation_of_all(context: &Context<'_>, sampling: &Sampling) -> Result<WhatNext, NoResult> {
     let options: Vec<usize> = (0..context.case.shots.len()).collect();
     next_of(context, &options, sampling, verdicts(context, sampling)?)
 }
 
-/// The same of one option.
+/// The same for one option.
 pub(super) fn next_observation_of(
     context: &Context<'_>,
     option: usize,
@@ -53,7 +53,7 @@ pub(super) fn next_observation_of(
     next_of(context, &[option], sampling, verdicts)
 }
 
-/// The verdict on each option (`n_options`); a fail where it has no result.
+/// The verdict on each option (`n_options`); a fail if it has no result.
 fn verdicts(context: &Context<'_>, sampling: &Sampling) -> Result<Vec<Verdict>, NoResult> {
     let _judging = context.control.part(SHARE_OF_VERDICTS);
     let results: OptionResults = context.with_sampling(*sampling).judge_options()?.value;
@@ -63,7 +63,7 @@ fn verdicts(context: &Context<'_>, sampling: &Sampling) -> Result<Vec<Verdict>, 
         .collect())
 }
 
-/// The best observation of `options`, which have these verdicts.
+/// The best observation of `options` with these verdicts.
 fn next_of(
     context: &Context<'_>,
     options: &[usize],

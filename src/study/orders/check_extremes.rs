@@ -12,14 +12,14 @@ use crate::sorting::sorted_by;
 use crate::study::as_planned::check_many::{check_summary, run_checks_or_failed};
 use crate::study::{ComputeResult, Computed, Context, ShotSummary};
 
-/// Factor on the error of a quick check within which an order may still be the worst or the best: 6 times the error that a check
-/// would tell by the same runs. In 36 cases of six rows the worst order needed at most 3.5 times (`benches/RESULTS.md`).
+/// Factor on the error of a quick check within which an order may still be the worst or the best. This is 6 times the error that a
+/// check would report for the same runs. In 36 cases of six rows the worst order needed at most 3.5 times (`benches/RESULTS.md`).
 const REACH_ERROR_FACTOR: f64 = 2.4;
 
-/// Number of orders refined together: a fixed number, so that the number of threads changes nothing.
+/// Number of orders refined together. The number is fixed, so the number of threads changes nothing.
 const REFINED_TOGETHER: usize = 32;
 
-/// Checks as `check` does, at every interval, the orders that may be the worst or the best, until none is left.
+/// Checks the orders that may be the worst or the best at every interval, as `check` does, until none is left.
 pub fn check_extremes(
     context: &Context<'_>,
     holes: &HoleTiming,
@@ -33,7 +33,7 @@ pub fn check_extremes(
     let image_of = |t: &TriedOrder| index.get(&(t.interval, mirrored(&t.order, &mirror_rows))).copied();
     let images: Vec<Option<usize>> = tried.iter().map(image_of).collect();
     let intervals: Vec<Time> = tried.iter().map(|tried| tried.interval).dedup().collect();
-    // Towards the worst, then towards the best.
+    // First toward the worst order, then toward the best.
     for (interval, sign) in itertools::iproduct!(intervals, [1.0, -1.0]) {
         loop {
             let is_of_interval = |n: &usize| tried[*n].interval == interval;
@@ -42,7 +42,7 @@ pub fn check_extremes(
                 (0..tried.len()).filter(|n| is_of_interval(n) && refined.contains(n) && is_known(n));
             let farthest_checked =
                 checked.map(|n| sign * utilization(case, &tried[n])).fold(f64::NEG_INFINITY, f64::max);
-            // An order whose runs failed may be the worst, and is not the best.
+            // An order whose runs failed may be the worst, but not the best.
             let reachable = |n: usize| match is_known(&n) {
                 true => {
                     let shown = tried[n].planned.as_far_as_shown();

@@ -1,4 +1,4 @@
-//! The search among more orders than can be tried: hill climbing from random orders, by exchanges of two rows.
+//! The search among more orders than can be tried: hill climbing from random orders, by swaps of two rows.
 
 use std::collections::{HashMap, HashSet};
 
@@ -13,16 +13,16 @@ use crate::plan::{HoleTiming, Time};
 use crate::sorting::sorted_by;
 use crate::study::{ComputeResult, Computed, Context};
 
-/// Number of orders of a search that are improved by exchanges towards the worst, and towards the best.
+/// Number of orders that swaps improve toward the worst order, and number toward the best.
 const CLIMBERS: usize = 24;
 
 /// Number of random orders of a search, per interval.
 const RANDOM_STARTS: usize = 1000;
 
-/// Share of what is left of an interval that a round of climbing takes.
+/// Share of the remaining progress of an interval that a round of climbing takes.
 const SHARE_OF_ROUND: f64 = 0.25;
 
-/// Searches at every interval for the worst and the best order.
+/// Searches the worst and the best order at every interval.
 pub(super) fn climb_orders(
     context: &Context<'_>,
     intervals: &[Time],
@@ -46,14 +46,14 @@ pub(super) fn climb_orders(
             return Ok(Computed { value: tried, partial: true });
         }
         drop(starting);
-        // Climbers toward the worst order climb utilization, those toward the best its negative.
+        // Climbers toward the worst order climb the utilization. Climbers toward the best order climb its negative.
         let mut climbers: Vec<(f64, Vec<usize>)> = Vec::new();
         for sign in [1.0, -1.0] {
             let height = |tried: &&TriedOrder| sign * utilization(case, tried);
             let highest = sorted_by(&tried[first..], |a, b| height(b).total_cmp(&height(a)));
             climbers.extend(highest.into_iter().take(CLIMBERS).map(|tried| (sign, tried.order.clone())));
         }
-        // All climbers take a step at once; those that meet become one.
+        // All climbers take a step at once. Climbers that meet become one.
         while !climbers.is_empty() {
             let _round = control.part(SHARE_OF_ROUND);
             let neighbours = climbers.iter().flat_map(|(_, order)| exchanges(order)).unique().collect();
@@ -77,7 +77,7 @@ pub(super) fn climb_orders(
     check_extremes(context, holes, tried)
 }
 
-/// All orders that differ by an exchange of two rows.
+/// All orders that differ by a swap of two rows.
 fn exchanges(order: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     (0..order.len()).array_combinations().map(move |[a, b]| {
         let mut order = order.to_vec();

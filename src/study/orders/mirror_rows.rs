@@ -7,7 +7,7 @@ use crate::scene::Firing;
 use crate::sorting::sorted;
 use crate::study::Case;
 
-/// Blast row that is the mirror image of each blast row, hole by hole as they fire; `None` where the shelter has no mirror plane that
+/// The blast row that is the mirror image of each blast row, hole by hole as they fire; `None` if no mirror plane of the shelter
 /// moves rows.
 pub(super) fn mirror_rows(case: &Case, holes: &HoleTiming) -> Option<Vec<usize>> {
     let in_turn = (0..case.plan.blast_rows.len()).collect_vec();

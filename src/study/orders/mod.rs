@@ -1,18 +1,18 @@
 //! The orders in which the blast rows can fire, ranked from the worst to the best.
 //!
-//! 1. Up to [`MOST_ROWS`] rows all orders are checked quickly, at coarse steps. Where the shelter is its own mirror image,
-//!    an order and its mirrored order are checked once.
-//! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + `REACH_ERROR_FACTOR` x
-//!    its error is above the greatest checked so far; this goes on until none is left. Likewise for the best, with the signs
-//!    reversed.
+//! 1. With up to [`MOST_ROWS`] rows, all orders get a quick check at coarse steps. If the shelter is its own mirror image, an order
+//!    and its mirrored order are checked once.
+//! 2. The hardest orders are checked first. An order stays in question while its coarse utilization + `REACH_ERROR_FACTOR` x its
+//!    error exceeds the greatest utilization checked so far. This goes on until no order is left. The best order is found in the
+//!    same way, with the signs reversed.
 //!
-//! The orders are ranked by the shots as planned. The [`SAMPLED_AT_EACH_END`] best of them and as many of the worst, some by each
-//! limit, get a few samples, by draws that only choose. Of these the worst as planned, the one that fails most often, and the best get a
-//! full verdict; fresh draws confirm the best. Where these pass and there are no other orders than those sampled, the rest get one, too:
-//! only then every order can pass.
+//! The planned shots rank the orders. The [`SAMPLED_AT_EACH_END`] best orders and as many of the worst, some by each limit, get a
+//! few samples, by draws that only choose. Three of these get a full verdict: the worst by its planned shot, the one that fails
+//! most often, and the best. Fresh draws confirm the best. If these pass and every order was sampled, the rest get a full verdict,
+//! too. Only then every order can pass.
 //!
-//! With more rows the orders are searched: random orders first; then exchanges of two rows in the worst `CLIMBERS` of
-//! them and in the best, until no exchange leads further. A search may miss the worst order; its result says so.
+//! With more rows the orders are searched: random orders first, then swaps of two rows in the worst `CLIMBERS` of them and in the
+//! best, until no swap leads further. A search may miss the worst order; its result says so.
 
 mod check_extremes;
 mod climb;
@@ -43,7 +43,7 @@ use crate::verdict::{Verdict, VerdictWord};
 
 /// Greatest number of blast rows whose orders are all tried: 40,320 orders.
 pub const MOST_ROWS: usize = 8;
-/// Greatest number of blast rows at which the quick check of every order goes on until its verdict is sure.
+/// Greatest number of blast rows at which the quick check of every order goes on until the verdict is sure.
 const MOST_SURE_ROWS: usize = 7;
 /// Number of runs of a quick check with more rows than [`MOST_SURE_ROWS`].
 const COARSE_RUNS: usize = 3;
@@ -60,7 +60,7 @@ pub struct TriedOrder {
     pub order: Vec<usize>,
     /// Interval between successive rows.
     pub interval: Time,
-    /// Verdict, height, force and drift.
+    /// Summary of the planned shot: verdict, height, force and drift.
     pub planned: ShotSummary,
 }
 
@@ -69,19 +69,20 @@ pub struct TriedOrder {
 pub struct Orders {
     /// How the holes of each row fire in every order.
     pub holes: HoleTiming,
-    /// From the worst to the best.
+    /// The orders, from the worst to the best.
     pub ranked: Vec<TriedOrder>,
     /// Whether all possible orders were tried.
     pub complete: bool,
-    /// What is known of each of them.
+    /// Judgement of each ranked order.
     judged: Vec<BriefJudgement>,
-    /// Whether samples were asked for.
+    /// Whether samples were requested.
     is_sampled: bool,
-    /// What ends the passes of the orders that decide, where these are thin ones, by their places; not looked for without samples.
+    /// What ends the thin passes of orders that decide, by their ranks. Not searched without samples.
     thin: BTreeMap<usize, ThinPass>,
 }
 
-/// Share of the work that the shots as planned take; of what is left, the first look at both ends, and the orders that decide.
+/// Share of the progress that the planned shots take. Of the rest, the shares of the first look at both ends, and of the orders
+/// that decide.
 const SHARE_AS_PLANNED: f64 = 0.4;
 const SHARE_OF_FIRST_LOOK: f64 = 0.5;
 const SHARE_OF_DECISIVE: f64 = 0.6;
@@ -103,7 +104,7 @@ impl Orders {
         }
     }
 
-    /// Samples the worst and the best orders; those that decide until their verdict is sure.
+    /// Samples the worst and the best orders. The orders that decide are sampled until their verdict is sure.
     pub fn add_risk(&mut self, context: &Context<'_>, sampling: &Sampling) -> ComputeResult<()> {
         let &Context { case, control, .. } = context;
         self.is_sampled = true;
@@ -169,45 +170,45 @@ impl Orders {
         Ok(Computed { value: (), partial })
     }
 
-    /// What ends the pass of an order, where that is known to be a thin one.
+    /// What ends the pass of an order, if that pass is known to be thin.
     pub fn thin(&self, rank: usize) -> Option<ThinPass> {
         self.thin.get(&rank).copied()
     }
 
-    /// The word of an order.
+    /// The verdict word of an order.
     pub fn word(&self, rank: usize) -> VerdictWord {
         if self.thin.contains_key(&rank) { VerdictWord::Thin } else { self.judged[rank].verdict().into() }
     }
 
-    /// Whether the pass of an order that decides is a thin one.
+    /// Whether the pass of an order that decides is thin.
     pub fn has_thin(&self) -> bool {
         !self.thin.is_empty()
     }
 
-    /// Whether samples were asked for.
+    /// Whether samples were requested.
     pub fn has_risk(&self) -> bool {
         self.is_sampled
     }
 
-    /// Number of orders without samples, where samples are asked for.
+    /// Number of orders without samples, if samples were requested; else 0.
     pub fn not_sampled(&self) -> usize {
         let without = |judged: &&BriefJudgement| judged.risk.known().is_none();
         if self.has_risk() { self.judged.iter().filter(without).count() } else { 0 }
     }
 
-    /// What is known of the order ranked `n`.
+    /// Judgement of the order ranked `n`.
     pub fn judged(&self, n: usize) -> &BriefJudgement {
         &self.judged[n]
     }
 
-    /// Number of orders that pass as planned.
+    /// Number of orders whose planned shot passes.
     pub fn passing_as_planned(&self) -> usize {
         self.ranked.iter().filter(|tried| tried.planned.verdict == Verdict::Pass).count()
     }
 }
 
 impl Computed<Orders> {
-    /// The verdict on the worst order: pass only where every order was tried, and each passes.
+    /// The verdict on the worst order: pass only if every order was tried, and each passes.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: orders, partial } = self;
         let worst = Verdict::worst(orders.judged.iter().map(BriefJudgement::verdict));
@@ -226,16 +227,16 @@ pub fn tries_all(case: &Case) -> bool {
     case.plan.blast_rows.len() <= MOST_ROWS
 }
 
-/// What a check of an order takes, in runs of a sample; measured on `point-blasting`. Samples of an order at an end.
+/// Cost of the check of an order, in runs of a sample, measured on `point-blasting`; and number of samples of an order at an end.
 const RUNS_OF_ORDER: usize = 40;
 const SAMPLES_OF_ORDER: usize = 100;
 
-/// Every order: the worst, the best.
+/// The question: which order is the worst, and which is the best?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Intervals between successive rows.
     pub intervals: Vec<Time>,
-    /// How the holes of each row fire in every order; `None` where the options differ, and nobody says it.
+    /// How the holes of each row fire in every order; `None` if the options differ, and nobody says it.
     pub holes: Option<HoleTiming>,
 }
 
@@ -271,7 +272,7 @@ impl Study for Question {
     }
 }
 
-/// Tries the orders at every interval, and ranks them; with a `sampling` it adds the risk of both ends.
+/// Tries the orders at every interval, and ranks them. With a `sampling` it adds the risk of both ends.
 pub fn orders(context: &Context<'_>, intervals: &[Time], holes: HoleTiming) -> ComputeResult<Orders> {
     let &Context { case, control, sampling, .. } = context;
     control.has_steps(if sampling.is_some() { 2 } else { 1 });
@@ -286,7 +287,7 @@ pub fn orders(context: &Context<'_>, intervals: &[Time], holes: HoleTiming) -> C
     Ok(Computed { value: orders, partial })
 }
 
-/// Tries the orders at every interval; only those of `shard`.
+/// Tries the orders of `shard` at every interval.
 pub fn try_orders(
     context: &Context<'_>,
     intervals: &[Time],
@@ -298,7 +299,7 @@ pub fn try_orders(
         return Err(NoResult::NoInterval);
     }
     let rows = case.plan.blast_rows.len();
-    // Where no run at all succeeds, the first order tells why.
+    // If no run succeeds, the first order shows why.
     let or_first_failure = |found: Computed<Vec<TriedOrder>>| {
         if found.value.iter().all(|tried| tried.planned == ShotSummary::FAILED_RUN) {
             for tried in found.value.iter().take(1) {
@@ -334,7 +335,7 @@ pub fn try_orders(
     check_extremes(context, &holes, tried).and_then(or_first_failure)
 }
 
-/// An order to be checked at one interval.
+/// An order to check at one interval.
 struct OrderToTry {
     /// Number of the trial, as in [`TriedOrder::number`].
     number: usize,

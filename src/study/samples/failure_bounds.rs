@@ -1,19 +1,19 @@
-//! A failure probability between two bounds that hold at every look, while samples come: a confidence sequence.
+//! Bounds of a failure probability that hold at every look while samples come: a confidence sequence.
 //!
-//! 1. Symbols: n samples, k of them failures, p the probability of a failure, π a distribution over [0, 1].
-//! 2. M(p) = ∫ qᵏ (1 − q)ⁿ⁻ᵏ dπ(q) / (pᵏ (1 − p)ⁿ⁻ᵏ) is a martingale with mean 1 as samples come, where they fail with
-//!    probability p. It ever exceeds 1/α with a probability of at most α (Ville 1939).
-//! 3. So the p with M(p) < 1/α hold the true p at all looks together with a probability of at least 1 − α.
+//! 1. Symbols: n is the number of samples, k the number of failures, p the probability of a failure, and π a distribution over [0, 1].
+//! 2. M(p) = ∫ qᵏ (1 − q)ⁿ⁻ᵏ dπ(q) / (pᵏ (1 − p)ⁿ⁻ᵏ). If the samples fail with probability p, M(p) is a martingale with mean 1 as
+//!    samples come. It ever exceeds 1/α with a probability of at most α (Ville 1939).
+//! 3. So the set of all p with M(p) < 1/α contains the true p at all looks together, with a probability of at least 1 − α.
 //! 4. The upper bound takes one π, the lower bound another, each with α = `error`. Both π are mixtures of Beta distributions
-//!    ([`Beta`]): for them the integral of line 2 is a quotient of Beta functions. Any π gives bounds that hold; these give
-//!    close bounds on both sides of the accepted risk.
-//! 5. A bound found once holds on: later looks only narrow the interval.
+//!    ([`Beta`]). For them the integral of line 2 is a quotient of Beta functions. Any π gives bounds that hold; these give close
+//!    bounds on both sides of the accepted risk.
+//! 5. A bound holds on once it is found: later looks only narrow the interval.
 
 use serde::{Deserialize, Serialize};
 
 use crate::verdict::Verdict;
 
-/// Probability of a wrong bound on one side of a verdict that was asked for.
+/// Probability of a wrong bound on one side of a verdict that takes the whole share.
 const ERROR: f64 = 0.025;
 
 /// Number of samples between two looks.
@@ -30,17 +30,17 @@ struct Beta {
 /// Bounds of a failure probability, from the samples so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FailureBounds {
-    /// Accepted failure probability, with which the bounds are compared.
+    /// Accepted failure probability. The bounds are compared with it.
     pub accepted: f64,
     /// Number of samples.
     pub samples: usize,
     /// Number of samples that failed.
     pub failures: usize,
-    /// Number of samples that stayed undecided: passes for the lower bound, failures for the upper.
+    /// Number of samples that stayed undecided: passes for the lower bound, failures for the upper bound.
     pub undecided: usize,
     /// Lower and upper bound of the failure probability.
     pub interval: [f64; 2],
-    /// Whether the bounds of different looks have excluded one another; then those of the last look stand, and decide nothing.
+    /// Whether the bounds of different looks excluded one another. Then the bounds of the last look stand, and decide nothing.
     is_contradictory: bool,
     /// Probability of a wrong bound on one side, over all looks together.
     error: f64,
@@ -48,17 +48,18 @@ pub struct FailureBounds {
     lower_mixture: [Beta; 2],
 }
 
-/// The share of the probability of an error that one verdict takes, where several have it in common.
+/// The share of the error probability that one verdict takes, if several verdicts have to share it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ErrorShare {
     /// There is no other verdict.
     Whole,
-    /// The n-th of a series, n from 1: 1/(n (n + 1)). However many there are, they take no more than the whole together.
+    /// The n-th verdict of a series, n from 1: the share is 1/(n (n + 1)). However many verdicts there are, together they take no
+    /// more than the whole.
     Nth(usize),
 }
 
 impl ErrorShare {
-    /// The whole over this share.
+    /// The whole divided by this share.
     fn parts(self) -> usize {
         match self {
             ErrorShare::Whole => 1,
@@ -68,7 +69,7 @@ impl ErrorShare {
 }
 
 impl FailureBounds {
-    /// Bounds before the first sample of a shot whose verdict takes this share of the probability of an error.
+    /// Bounds before the first sample of a shot. The verdict takes this share of the error probability.
     pub fn new(accepted: f64, share: ErrorShare) -> Self {
         let beta = |weight, a, b| Beta { weight, a, b };
         Self {
@@ -84,8 +85,8 @@ impl FailureBounds {
         }
     }
 
-    /// What the bounds of these samples were after the first `counts` of them, none less than the one before. They are looked at only
-    /// then, so that those before the last may be a little wider than the ones that were judged by.
+    /// The bounds after the first `counts` samples; `counts` never decrease. This looks at the bounds only at these counts. So all
+    /// bounds but the last may be a little wider than the bounds of the judgement.
     pub fn after(&self, samples: impl IntoIterator<Item = Verdict>, counts: &[usize]) -> Vec<[f64; 2]> {
         let mut bounds = Self {
             samples: 0,
@@ -140,7 +141,7 @@ impl FailureBounds {
         self.interval = if self.is_contradictory { now } else { narrowed };
     }
 
-    /// The verdict of the bounds: whether surely less than the accepted share of the shots fails, or surely more.
+    /// The verdict of the bounds: a pass if surely less than the accepted share of the shots fails, a fail if surely more does.
     pub fn verdict(&self) -> Verdict {
         let [low, high] = self.interval;
         match (high < self.accepted, low > self.accepted) {
@@ -151,7 +152,7 @@ impl FailureBounds {
         }
     }
 
-    /// Whether the bounds come to a pass within `most` samples in all if no further sample fails.
+    /// Whether the bounds reach a pass within `most` samples in all if no further sample fails.
     pub fn can_pass(&self, most: usize) -> bool {
         let last_look = most - most % LOOK_EVERY;
         let mut best = Self { samples: last_look.max(self.samples), ..*self };
@@ -166,8 +167,8 @@ impl FailureBounds {
     }
 }
 
-/// The probability between the share of failures and `end`, 0 or 1, at which the martingale reaches 1 / `error`; `end` where
-/// it does not.
+/// The probability between the share of failures and `end` (0 or 1) at which the martingale reaches 1 / `error`; `end` if it never
+/// does.
 fn bound(mixture: &[Beta], failures: usize, samples: usize, error: f64, end: f64) -> f64 {
     let (k, n) = (failures as f64, samples as f64);
     let terms = mixture
@@ -200,7 +201,7 @@ mod tests {
 
     use super::*;
 
-    /// At an accepted risk of 1 % some 430 samples without a failure pass.
+    /// At an accepted risk of 1 %, some 430 samples without a failure pass.
     #[test]
     fn a_pass_is_out_of_reach_with_few_samples_or_many_failures() {
         let new = FailureBounds::new(0.01, ErrorShare::Whole);
@@ -224,7 +225,7 @@ mod tests {
         if random.random::<f64>() < p { Verdict::Fail } else { Verdict::Pass }
     }
 
-    /// The bound solves M(p) = 40 of line 2, here with the integral by a sum of a million terms: 3 failures in 50.
+    /// The bound solves M(p) = 40 of line 2, for 3 failures in 50. Here the integral is a sum of a million terms.
     #[test]
     fn bounds_solve_the_equation_of_the_martingale() {
         let mixture = [Beta { weight: 0.3, a: 1.0, b: 1.0 }, Beta { weight: 0.7, a: 2.0, b: 30.0 }];
@@ -239,8 +240,8 @@ mod tests {
         }
     }
 
-    /// Of 2,000 streams looked at up to 400 times, each bound is wrong in at most 2.5 %, but for four standard errors of
-    /// that count (1.4 %). A 95 % interval of fixed sample size, asked as often, is wrong in some 30 %.
+    /// In 2,000 streams with up to 400 looks each, each bound is wrong in at most 2.5 %, plus four standard errors of that count
+    /// (1.4 %). A 95 % interval of fixed sample size, with as many looks, is wrong in some 30 %.
     #[test]
     fn bounds_hold_at_every_look() {
         let mut random = ChaCha8Rng::seed_from_u64(5);
@@ -249,7 +250,7 @@ mod tests {
             for _ in 0..2000 {
                 let mut bounds = FailureBounds::new(accepted, ErrorShare::Whole);
                 (0..2000).for_each(|_| bounds.push(drawn(&mut random, p)));
-                // The interval only narrows, so its last bounds are wrong if any were.
+                // The interval only narrows. So its last bounds are wrong if any were.
                 let [low, high] = bounds.interval;
                 wrong[0] += usize::from(low > p);
                 wrong[1] += usize::from(high < p);
@@ -260,8 +261,8 @@ mod tests {
         }
     }
 
-    /// Where six shots are sampled one after the other, all bounds together are wrong as rarely as one verdict that was asked
-    /// for: here of shots that fail just as often as accepted. Without the shares a tenth would be wrong.
+    /// Six shots are sampled one after the other. All bounds together are wrong as rarely as the bounds of a single verdict. The
+    /// shots here fail just as often as accepted. Without the shares a tenth would be wrong.
     #[test]
     fn candidates_share_the_probability_of_an_error() {
         let mut random = ChaCha8Rng::seed_from_u64(7);
@@ -276,7 +277,7 @@ mod tests {
         assert!((wrong as f64) < 1000.0 * (ERROR + 0.02), "{wrong}");
     }
 
-    /// Samples until the bounds tell, in the mean of 100 streams: as few as the interface promises.
+    /// Mean number of samples until the bounds decide, over 100 streams: as few as the interface promises.
     #[test]
     fn a_verdict_takes_few_samples_away_from_the_accepted_risk() {
         let mut random = ChaCha8Rng::seed_from_u64(6);
@@ -299,7 +300,7 @@ mod tests {
         }
     }
 
-    /// Bounds looked at less often hold what those of every look hold; the last ones are those that were judged by.
+    /// Bounds with fewer looks include the bounds of every look. The last bounds are the bounds of the judgement.
     #[test]
     fn bounds_are_told_as_they_narrowed() {
         let mut random = ChaCha8Rng::seed_from_u64(8);
@@ -319,7 +320,8 @@ mod tests {
         assert!(told[0][1] > 0.5 && told[4][1] < 0.1, "{told:?}");
     }
 
-    /// Looked at as often as they were judged, they are told as they were, undecided samples and all, whatever came of them in the end.
+    /// With a look at every look of the judgement, the bounds are what they were then: also with undecided samples, and with a
+    /// contradiction at the end.
     #[test]
     fn bounds_are_told_as_they_were_at_every_look() {
         let [pass, fail, open] = [Verdict::Pass, Verdict::Fail, Verdict::Undecided];
@@ -346,7 +348,7 @@ mod tests {
         assert_eq!(bounds.verdict(), Verdict::Undecided, "{:?}", bounds.interval);
     }
 
-    /// The bound of 1,000 samples that pass excludes what 60 failures behind them show; both lie far below the accepted risk.
+    /// The bound of 1,000 samples that pass excludes the share that the next 60 failures show. Both lie far below the accepted risk.
     #[test]
     fn bounds_that_contradict_one_another_below_the_accepted_risk_pass_nothing() {
         let mut bounds = FailureBounds::new(0.5, ErrorShare::Whole);
@@ -359,7 +361,7 @@ mod tests {
         assert_eq!(bounds.verdict(), Verdict::Undecided);
     }
 
-    /// The shares of a series are 1/2, 1/6, 1/12 …: of n together 1 − 1/(n + 1).
+    /// The shares of a series are 1/2, 1/6, 1/12 …: n of them together are 1 − 1/(n + 1).
     #[test]
     fn shares_of_however_many_verdicts_are_no_more_than_the_whole() {
         assert_eq!(ErrorShare::Whole.parts(), 1);

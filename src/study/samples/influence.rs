@@ -1,4 +1,4 @@
-//! What decides how a shot turns out: the shares of the inputs in the variance of its samples.
+//! Shares of the inputs in the variance of the samples of a shot: which input decides the result.
 
 use super::random_shot::Input;
 use super::sampled_shot::SampledShot;
@@ -8,8 +8,8 @@ use crate::verdict::{Limits, Quantity};
 /// Samples needed for the shares of the inputs.
 pub const SAMPLES_FOR_SHARES: usize = 200;
 
-/// Share of each input in the variance of the quantity nearest its limit, largest first; `None` for fewer than
-/// [`SAMPLES_FOR_SHARES`] samples. The remainder is scatter from hole to hole and interaction between inputs.
+/// Share of each input in the variance of the quantity nearest its limit, largest first. The remainder is scatter from hole to hole
+/// and interaction between inputs. `None` for fewer than [`SAMPLES_FOR_SHARES`] samples, or if a value is infinite.
 pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input, f64)>> {
     let nearest = nearest_its_limit(sampled, limits)?;
     let values: Vec<f64> = sampled.decided().map(|sample| sample.run.get(nearest)).collect();
@@ -20,7 +20,7 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input
         let inputs: Vec<f64> = sampled.decided().map(|sample| sample.inputs[n]).collect();
         (input, share_of_variance(&inputs, &values))
     };
-    // Both axes of one key count together.
+    // The inputs along both axes of one key count together.
     let mut shares: Vec<(Input, f64)> = Vec::new();
     for (input, share) in Input::ALL.into_iter().enumerate().map(share) {
         match shares.iter_mut().find(|(known, _)| known.key().name == input.key().name) {
@@ -32,7 +32,7 @@ pub fn input_shares(sampled: &SampledShot, limits: &Limits) -> Option<Vec<(Input
     Some(shares)
 }
 
-/// The quantity whose 95th percentile is the greatest share of its limit.
+/// The quantity whose 95th percentile has the greatest share of its limit.
 fn nearest_its_limit(sampled: &SampledShot, limits: &Limits) -> Option<Quantity> {
     let mut nearest: Option<(f64, Quantity)> = None;
     for quantity in Quantity::ALL {
@@ -45,8 +45,8 @@ fn nearest_its_limit(sampled: &SampledShot, limits: &Limits) -> Option<Quantity>
     nearest.map(|(_, quantity)| quantity)
 }
 
-/// Share of the variance of `values` that `input` alone explains: the variance between bins of equal count, less what bins
-/// of random values would show (the ε² of Kelley 1935).
+/// Share of the variance of `values` that `input` alone explains: the variance between bins of equal count, minus the variance that
+/// bins of random values would show (the ε² of Kelley 1935).
 fn share_of_variance(input: &[f64], values: &[f64]) -> f64 {
     let n = values.len();
     let bins = ((n as f64).sqrt() as usize).min(20);
@@ -74,8 +74,8 @@ mod tests {
 
     use super::*;
 
-    /// y = 3 a + 4 b + c with three even variables of one variance: shares of 9/26, 16/26 and 1/26, each within four
-    /// standard errors of 4,000 draws (0.05); an input without effect has none.
+    /// y = 3 a + 4 b + c with three uniform variables of equal variance has the shares 9/26, 16/26 and 1/26. Each holds within four
+    /// standard errors of 4,000 draws (0.05). An input without effect has no share.
     #[test]
     fn shares_are_those_of_a_sum() {
         let mut random = ChaCha8Rng::seed_from_u64(1);
@@ -89,13 +89,13 @@ mod tests {
         assert_eq!(share_of_variance(&vec![0.5; 4000], &y), 0.0, "an input known exactly");
     }
 
-    /// Of 1, 3, 5, 7 in two bins the variance is 20, between the bins 16, within a bin 4/2: ε² is (16 − 2)/20.
+    /// For 1, 3, 5, 7 in two bins, the variance is 20, between the bins 16, within a bin 4/2. So ε² is (16 − 2)/20.
     #[test]
     fn a_share_of_few_values_is_that_of_kelley() {
         assert_eq!(share_of_variance(&[4.0, 3.0, 2.0, 1.0], &[7.0, 5.0, 3.0, 1.0]), 0.7);
     }
 
-    /// The bias of bins is removed: of 200 values without any relation, bins of equal count alone would explain 7 %.
+    /// The bias of bins is removed: for 200 values without any relation, bins of equal count alone would explain 7 %.
     #[test]
     fn inputs_without_effect_have_no_share() {
         let mut random = ChaCha8Rng::seed_from_u64(2);

@@ -1,19 +1,19 @@
 //! Draws the shots that `[uncertainty]` describes.
 //!
-//! A sample is a variant of the scene and a shot. Every draw follows from the seed, the number of the sample, and what it is for:
-//! an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend on threads,
-//! shards, accuracy or the order of options, and the options of a plan are compared on the same draws.
+//! A sample is a variant of the scene and of the shot. Every draw follows from the seed, the number of the sample, and the purpose
+//! of the draw: an input of the whole shot, a gap between blast rows, a blast row, a tire, or a cable. So a sample does not depend
+//! on threads, shards, accuracy or the order of options. The options of a plan are compared on the same draws.
 //!
-//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. A hole's launch velocity belongs to the
-//! tire over it in the plan, of the mass there; how fast a tire of another mass leaves, the [mass law](crate::plan::mass_law) says.
-//! Each gap between blast rows scatters by itself and shifts all later rows; so does each gap between the holes of a row, which
-//! shifts the later holes of its side.
+//! Factors on launch velocities, masses and breaking forces are lognormal with mean 1. The launch velocity of a hole belongs to the
+//! tire over it in the plan, with the mass of that tire. The [mass law](crate::plan::mass_law) says how fast a tire of another mass
+//! leaves. Each gap between blast rows scatters on its own and shifts all later rows. Each gap between the holes of a row scatters
+//! on its own, too, and shifts the later holes of its side.
 //!
-//! As laid and fired: each hole lies beside its place, and the shelter beside the whole pattern. The nearest tire gets the impulse,
-//! along the line from below the hole ([`PushLine`]). Slopes of that line, of the whole shot and of each hole add. A hole fails
-//! by itself; a cable is as long as it was tied, and never shorter than what it spans.
+//! Each hole lies beside its planned place, and the shelter lies beside the whole pattern. The nearest tire gets the impulse, along
+//! the line from below the hole ([`PushLine`]). The slopes of that line, of the whole shot and of each hole add. Each hole may fail
+//! on its own. A cable is as long as it was tied, and never shorter than the distance that it spans.
 //!
-//! Functions such as the exponential come from `libm`, not from the system, whose last digits differ from another's.
+//! Functions such as the exponential come from `libm`, not from the system: the last digits differ between systems.
 
 use std::iter::repeat_n;
 
@@ -31,7 +31,7 @@ use crate::scene::{
 };
 use crate::study::Case;
 
-/// An input that is the same in the whole shot, and not known exactly.
+/// An input that is the same in the whole shot and is not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// Factor on all launch velocities.
@@ -42,7 +42,7 @@ pub enum Input {
     Slack,
     /// Factor on the axial stiffness of all cables.
     AxialStiffness,
-    /// Factor on all launch velocities, which the next shot draws anew.
+    /// Factor on all launch velocities that the next shot draws anew.
     LaunchBetweenShots,
     /// Exponent of the mass law.
     MassExponent,
@@ -50,9 +50,9 @@ pub enum Input {
     CommonSlopeX,
     /// Slope of all launches along y.
     CommonSlopeY,
-    /// How far the shelter lies beside its place along x [m].
+    /// Offset of the shelter from its planned place along x [m].
     OffsetX,
-    /// How far the shelter lies beside its place along y [m].
+    /// Offset of the shelter from its planned place along y [m].
     OffsetY,
     /// Number of holes that do not fire.
     Duds,
@@ -74,7 +74,7 @@ impl Input {
         Input::Duds,
     ];
 
-    /// The key of a plan that says how well the input is known.
+    /// The key of a plan that says how uncertain the input is.
     pub fn key(self) -> &'static Key {
         match self {
             Input::LaunchCommon => &uncertainty::LAUNCH_COMMON_PERCENT,
@@ -102,7 +102,7 @@ impl Input {
     }
 }
 
-/// What was drawn for one sample: its shelter and its shot.
+/// One drawn sample: its shelter and its shot.
 #[derive(Clone, Debug)]
 pub struct DrawnShot {
     /// The shelter with the numbers of the sample.
@@ -111,14 +111,14 @@ pub struct DrawnShot {
     pub shot: Shot,
     /// Values of the inputs in [`Input::ALL`].
     pub inputs: [f64; Input::ALL.len()],
-    /// How much later than drawn all holes fire, so that none fires before time 0 [s].
+    /// Shift of all firing times after the draw, so that no hole fires before time 0 [s].
     pub later: f64,
 }
 
-/// The random numbers of one sample, kept apart by what they are for.
+/// The random numbers of one sample, kept apart by their purpose.
 struct Random(ChaCha8Rng);
 
-/// What draws within a sample are for.
+/// Purpose of draws within a sample.
 #[derive(Clone, Copy)]
 enum Draws {
     WholeShot,
@@ -139,7 +139,7 @@ impl Random {
         Self(random)
     }
 
-    /// Moves to the random numbers of these draws. A tire has room for a hundred thousand holes.
+    /// Moves to the random numbers of these draws. Each tire has room for a hundred thousand holes.
     fn at(&mut self, draws: Draws) -> &mut ChaCha8Rng {
         let word = match draws {
             Draws::WholeShot => 0,
@@ -157,7 +157,7 @@ impl Random {
     }
 }
 
-/// Factor with mean 1 and a coefficient of variation [%], lognormal.
+/// Lognormal factor with mean 1 and a coefficient of variation [%].
 fn factor(random: &mut ChaCha8Rng, cv_percent: f64) -> f64 {
     let variance = libm::log1p((cv_percent * 1e-2).powi(2));
     libm::exp(variance.sqrt() * normal(random) - 0.5 * variance)
@@ -167,8 +167,8 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
 }
 
-/// Sample `number` of the shots that the plan describes beside `planned`: one shot for each way in which the plan leaves open what a dud
-/// takes along. A verdict counts the worst of them.
+/// Sample `number` of the shots that the plan describes beside `planned`. If the plan leaves open which holes a dud takes along,
+/// there is one shot for each way. A verdict counts the worst of them.
 pub fn draw_shots(case: &Case, planned: &Shot, seed: u64, number: usize) -> Vec<DrawnShot> {
     let draw = Draw::new(case, planned, seed, number);
     let mut lost: Vec<Vec<bool>> = Vec::new();
@@ -182,7 +182,7 @@ pub fn draw_shots(case: &Case, planned: &Shot, seed: u64, number: usize) -> Vec<
     draws.zip(lost).map(|(draw, lost)| draw.without(&lost)).collect()
 }
 
-/// The same sample as one shot: what the plan leaves open of its wiring is drawn, too.
+/// The same sample as one shot: the wiring that the plan leaves open is drawn, too.
 pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> DrawnShot {
     let draw = Draw::new(case, planned, seed, number);
     let mut random = Random::new(seed, number);
@@ -191,7 +191,7 @@ pub fn draw_shot(case: &Case, planned: &Shot, seed: u64, number: usize) -> Drawn
     draw.without(&lost)
 }
 
-/// What was drawn for one sample before its duds take others along.
+/// The draws of one sample, before its duds take other holes along.
 #[derive(Clone)]
 struct Draw<'p> {
     planned: &'p Shot,
@@ -200,7 +200,7 @@ struct Draw<'p> {
     firings: Vec<Firing>,
     duds: Vec<bool>,
     friction: f64,
-    /// Values of the inputs before the last, which is [`Input::Duds`].
+    /// Values of all inputs but the last, which is [`Input::Duds`].
     inputs: [f64; Input::ALL.len() - 1],
 }
 
@@ -257,12 +257,12 @@ impl<'p> Draw<'p> {
         Self { planned, scene, firings, duds, friction, inputs }
     }
 
-    /// Whether the plan leaves open what the duds take along.
+    /// Whether the plan leaves open which holes the duds take along.
     fn is_open(&self) -> bool {
         self.planned.fired_through && self.duds.contains(&true)
     }
 
-    /// Which holes do not fire (`n_holes`). It follows from the planned times.
+    /// Which holes do not fire (`n_holes`), by the planned times.
     fn lost_with(&self, wiring: Wiring) -> Vec<bool> {
         self.planned.lost_with(self.duds.clone(), wiring)
     }
@@ -272,7 +272,7 @@ impl<'p> Draw<'p> {
         let count_of_lost = lost.iter().filter(|lost| **lost).count() as f64;
         let fired = self.firings.iter().zip(lost).filter(|(_, lost)| !**lost).map(|(firing, _)| *firing);
         let mut fired: Vec<Firing> = fired.collect();
-        // No firing may be before the start: all are shifted, and so is the end of the run.
+        // No hole may fire before the start: all firings are shifted, and so is the end of the run.
         let later = -fired.iter().map(|firing| firing.time).fold(0.0, f64::min);
         fired.iter_mut().for_each(|firing| firing.time += later);
         let shot = Shot { friction: Some(self.friction), ..self.planned.with_firings(fired) };
@@ -287,13 +287,13 @@ fn tangent(degrees: f64) -> f64 {
     libm::tan(degrees.to_radians())
 }
 
-/// Normal deviations along x and y, of a standard deviation.
+/// Normal deviations along x and y with the standard deviation `deviation`.
 fn on_both_axes(random: &mut ChaCha8Rng, deviation: f64) -> Vector2<f64> {
     let x = deviation * normal(random);
     Vector2::new(x, deviation * normal(random))
 }
 
-/// Shifts the firings of a `planned` shot [s] by the scatter of the gaps before them: of the gaps between the rows, and of those between
+/// Shifts the firing times of a `planned` shot [s] by the scatter of the gaps before them: gaps between the rows, and gaps between
 /// the holes of their row.
 fn scatter_gaps(planned: &Shot, firings: &mut [Firing], uncertainty: &Uncertainty, random: &mut Random) {
     let rows = planned.rows_of_chains(Wiring::default());
@@ -314,8 +314,8 @@ fn scatter_gaps(planned: &Shot, firings: &mut [Firing], uncertainty: &Uncertaint
     }
 }
 
-/// Firing times [s] of which each fires the next: every gap between `planned` times, which are in order, scatters and shifts all
-/// that follow. A gap stays a delay: it is never negative.
+/// Firing times [s] of a chain in which each firing starts the next. Every gap between the `planned` times (sorted) scatters and
+/// shifts all later times. A gap is a delay, so it is never negative.
 fn scatter_chain(planned: &[f64], uncertainty: &Uncertainty, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut at = planned.to_vec();
     for n in 1..planned.len() {
@@ -334,21 +334,21 @@ struct LaunchesOfShot {
     factor: f64,
     /// Exponent of the mass law.
     mass_exponent: f64,
-    /// Slope that adds to that of every launch.
+    /// Slope that is added to every launch.
     slope: Vector2<f64>,
-    /// How far the shelter lies beside its place [m].
+    /// Offset of the shelter from its place [m].
     offset: Vector2<f64>,
 }
 
-/// What is drawn for one hole.
+/// Draws for one hole.
 struct DrawnHole {
     /// Factor on its launch velocity.
     factor: f64,
-    /// Slope that adds to that of its launch.
+    /// Slope that is added to its launch.
     slope: Vector2<f64>,
-    /// How far it lies beside its place [m].
+    /// Offset of the hole from its place [m].
     beside: Vector2<f64>,
-    /// How much later it fires [s].
+    /// Shift of its firing time [s].
     later: f64,
 }
 
@@ -390,7 +390,7 @@ fn scatter_tires(
         let firing = &mut firings[n];
         let moved = hole.beside - launches.offset;
         let place = scene.position[firing.tire].xy() - firing.line.offset + moved;
-        // A hole that is known to lie under its tire keeps it, whatever else is near.
+        // A hole that is known to lie under its tire keeps the tire, whatever else is near.
         let tire = if moved == Vector2::zeros() { firing.tire } else { nearest_tire(scene, place) };
         let line = PushLine { offset: scene.position[tire].xy() - place, ..firing.line };
         let slope = line.slope_at(line.offset) + launches.slope + hole.slope;
@@ -408,7 +408,7 @@ fn scatter_tires(
     duds
 }
 
-/// Index of the tire whose centre is nearest to a point [m], the first of several.
+/// Index of the tire whose center is nearest to a point [m], the first of several.
 pub(in crate::study) fn nearest_tire(scene: &Scene, place: Vector2<f64>) -> usize {
     let away = |tire: &usize| (scene.position[*tire].xy() - place).norm_squared();
     (0..scene.tire_count()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
@@ -419,7 +419,8 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// The draws of a purpose, of a tire, a row or a cable begin where no others come: one behind the other, in this order.
+    /// The draws of each purpose, and of each tire, row or cable, begin where no other draws lie. They follow one another in this
+    /// order.
     #[test]
     fn draws_of_different_purposes_are_apart() {
         let mut random = Random::new(1, 0);
@@ -436,13 +437,13 @@ mod tests {
             .collect();
         let all = [single, ordered].concat();
         assert!(all.windows(2).all(|pair| pair[0] + 64 <= pair[1]), "{all:?}");
-        // The room of a tire: some ten numbers for each of a hundred thousand holes.
+        // Room of a tire: some ten numbers for each of a hundred thousand holes.
         for many in [Draws::BlastRow, Draws::Tire, Draws::HolesUnder] {
             assert_eq!(begins(many(8)) - begins(many(7)), 1 << 20);
         }
     }
 
-    /// What each shot draws anew is known no better after one that was seen.
+    /// An observed shot says nothing about inputs that each shot draws anew.
     #[test]
     fn only_what_stays_as_it_is_repeats() {
         let anew: Vec<Input> = Input::ALL.into_iter().filter(|input| !input.repeats()).collect();
@@ -450,7 +451,8 @@ mod tests {
         assert_eq!(anew, [Input::LaunchBetweenShots, x, y, Input::OffsetX, Input::OffsetY, Input::Duds]);
     }
 
-    /// Two by two tires, their own images in several mirror planes, with these keys of `[uncertainty]` and nothing else unknown.
+    /// Two by two tires, which are their own images in several mirror planes, with these keys of `[uncertainty]`. Everything else
+    /// is exact.
     fn drawn(unknown: &str) -> (Case, DrawnShot) {
         let zero: String = [
             "delay_sd_ms",
@@ -489,7 +491,7 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         (case, drawn)
     }
 
-    /// A shelter whose tires or cables differ is no mirror image of itself; each of these draws alone makes it so.
+    /// A shelter whose tires or cables differ is no mirror image of itself. Each of these draws alone makes them differ.
     #[test]
     fn what_differs_tire_by_tire_or_cable_by_cable_has_no_mirrors() {
         let (case, same) = drawn("");
@@ -505,7 +507,7 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         assert!(strength.iter().all(|factor| (factor - 1.0).abs() < 0.15 && *factor != 1.0), "{strength:?}");
     }
 
-    /// With a scatter of 5 ms in the holes some would fire before the start: all fire later, the first of them at the start.
+    /// With a scatter of 5 ms in the holes, some would fire before the start. So all fire later, and the first fires at the start.
     #[test]
     fn no_hole_fires_before_the_start() {
         let (case, later) = drawn("in_hole_delay_ms = 500\ndelay_cv_percent = 1");
@@ -516,8 +518,8 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         assert!((times(&later.shot) - planned - later_in_all).abs() < 4.0 * 4.0 * 5e-3);
     }
 
-    /// Each gap between firings has a deviation of its own, and shifts all that fires behind it; what fires together stays together, and
-    /// no gap is negative.
+    /// Each gap between firings has its own deviation and shifts all later firings. Holes that fire together stay together. No gap
+    /// is negative.
     #[test]
     fn a_gap_shifts_all_that_fires_behind_it() {
         let (case, _) = drawn("delay_cv_percent = 10");
@@ -537,7 +539,7 @@ delay = [{{ name = "1", interval_ms = 20 }}]
         assert!(scattered.windows(2).any(|pair| pair[1] == pair[0]), "a test that can fail");
     }
 
-    /// A rope that is a fifth stiffer than planned, between ends that are not, is so when it is tied longer, too.
+    /// The rope is a fifth stiffer than planned, between ends that are not. The cable keeps this stiffness when it is tied longer.
     #[test]
     fn a_cable_tied_longer_keeps_the_stiffness_of_its_rope() {
         let stiffness = |unknown: &str| {

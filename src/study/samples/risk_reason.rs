@@ -1,4 +1,4 @@
-//! Why the possible shots fail too often or leave a verdict open; [`SampledShot::reason`] finds which it is.
+//! Why the sampled shots fail too often or leave a verdict open. [`SampledShot::reason`] finds the reason.
 //!
 //! [`SampledShot::reason`]: crate::study::samples::sampled_shot::SampledShot::reason
 
@@ -7,19 +7,19 @@ use crate::verdict::Verdict;
 /// Why the samples of a shot do not pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RiskReason {
-    /// Surely more of the possible shots fail than the plan accepts.
+    /// Surely more of the sampled shots fail than the plan accepts.
     TooManyFail,
-    /// The shot as planned, computed more finely, lies above all samples: their step is too long for the motion.
+    /// The planned shot, computed more finely, exceeds all samples: the step of the samples is too long for the motion.
     PlannedExceedsSamples,
     /// Finer runs contradict the samples.
     FinerRunsDisagree,
-    /// The samples pass, but too few of them are run at a finer step, too.
+    /// The samples pass, but too few of them also ran at a finer step.
     FewAudited,
-    /// They pass, and the launch velocity that they were drawn about is an estimate that nobody observed.
+    /// The samples pass, but they were drawn about an estimated launch velocity that nobody observed.
     LaunchEstimated,
-    /// Some samples stay undecided, and could be the failures that are too many.
+    /// Some samples stay undecided. They could be the failures that are too many.
     UndecidedSamples,
-    /// The bounds hold the accepted share: it is not sure whether more fail than the plan accepts.
+    /// The bounds include the accepted share: it is not sure whether more shots fail than the plan accepts.
     NotSure,
 }
 

@@ -1,4 +1,4 @@
-//! The risk of many shots of a study, of which only a summary is kept: few samples of each, or as many as a verdict needs.
+//! Risk of many shots of a study: few samples of each, or as many as a verdict needs. Only a summary of each is kept.
 
 use std::ops::ControlFlow;
 
@@ -11,10 +11,10 @@ use crate::scene::Shot;
 use crate::study::{Context, NoResult, ShotSummary};
 use crate::verdict::Verdict;
 
-/// Number of shots sampled together; their samples are not kept.
+/// Number of shots sampled together. Their samples are dropped afterwards.
 const AT_ONCE: usize = 64;
 
-/// What the samples of one shot tell.
+/// Summary of the samples of one shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RiskSummary {
     /// Bounds of the failure probability.
@@ -23,8 +23,8 @@ pub struct RiskSummary {
     pub verdict: Verdict,
     /// Whether finer runs contradict the samples.
     pub finer_runs_disagree: bool,
-    /// How much of a limit all but the accepted share of the samples use at most; infinite where more than that are undecided, or break
-    /// cables.
+    /// Greatest utilization of the samples, with the accepted share at the top left out. Infinite if more samples than that share
+    /// are undecided or break cables.
     pub utilization: f64,
 }
 
@@ -36,18 +36,18 @@ impl RiskSummary {
         Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }
 
-    /// The same of a first look, which passes nothing: what is judged further is chosen by its draws.
+    /// The summary of a first look. It never passes, because its draws choose which shots are judged further.
     pub fn of_first_look(self) -> Self {
         Self { verdict: self.verdict.max(Verdict::Undecided), ..self }
     }
 
-    /// The share of the samples that fails; undecided ones count as failing.
+    /// Share of the samples that fails. Undecided samples count as failing.
     pub fn failing_share(&self) -> f64 {
         let FailureBounds { samples, failures, undecided, .. } = self.bounds;
         (failures + undecided) as f64 / samples.max(1) as f64
     }
 
-    /// Whether the failing share so far does not exceed the accepted risk, and nothing speaks against the samples; not yet a
+    /// Whether the failing share so far does not exceed the accepted risk, and nothing contradicts the samples. This is not yet a
     /// verdict.
     pub fn is_accepted(&self) -> bool {
         let is_not_refuted = !self.finer_runs_disagree && self.verdict != Verdict::Fail;
@@ -55,8 +55,8 @@ impl RiskSummary {
     }
 }
 
-/// Samples shots of one case, each checked as planned, all with the same draws; `None` for the shots that the time did not
-/// suffice for.
+/// Samples shots of one case, all with the same draws. Each comes with the check of its planned shot. `None` for shots that ran out
+/// of time.
 pub fn sample_shots_in_brief<'c>(
     context: &Context<'c>,
     shots: &'c [(Shot, ShotSummary)],
@@ -65,7 +65,7 @@ pub fn sample_shots_in_brief<'c>(
     sample_shots_in_brief_watched(context, shots, sampling, &mut |_, _| {})
 }
 
-/// The same, which hands `watch` what is known of a shot, by its index, whenever more of its samples are there.
+/// The same. `watch` gets the index and the summary of a shot whenever more of its samples are done.
 pub fn sample_shots_in_brief_watched<'c>(
     context: &Context<'c>,
     shots: &'c [(Shot, ShotSummary)],
@@ -106,7 +106,7 @@ mod tests {
         RiskSummary { bounds, verdict: Verdict::Undecided, finer_runs_disagree: false, utilization: 0.9 }
     }
 
-    /// More shots than are sampled together: each is told by its own index, while it is sampled and in the end.
+    /// More shots than are sampled together. Each is reported by its own index, during sampling and at the end.
     #[test]
     fn every_shot_of_many_has_its_own_summary() {
         let text = include_str!("../../../plans/paper-5-tire.toml");
@@ -137,7 +137,7 @@ mod tests {
         );
     }
 
-    /// Two of 200 are the accepted 1 %, of 199 they are more. An undecided sample counts as one that fails; no sample shows nothing.
+    /// Two of 200 are the accepted 1 %; two of 199 are more. An undecided sample counts as failing. Without samples nothing is shown.
     #[test]
     fn a_share_up_to_the_accepted_one_is_accepted_where_nothing_speaks_against_it() {
         let accepted = summary(200, 1, 1);

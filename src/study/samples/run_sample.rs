@@ -1,4 +1,4 @@
-//! One sample: drawn, and run at the step that its scene allows.
+//! One sample: it is drawn, and run at a step that its scene allows.
 
 use super::random_shot::{DrawnShot, Input, draw_shots};
 use super::sample::{Sample, SampleRun};
@@ -13,14 +13,14 @@ use crate::study::compute_settings::step_factor;
 use crate::study::{Case, ComputeSettings, Fingerprint, NoResult, ShotSummary, StudyControl, catch_panic};
 use crate::verdict::{Limits, Verdict};
 
-/// A shot whose risk is asked for.
+/// A shot to sample.
 #[derive(Clone, Copy, Debug)]
 pub struct ShotToSample<'c> {
     /// The plan.
     pub case: &'c Case,
-    /// The shot as planned.
+    /// The planned shot.
     pub shot: &'c Shot,
-    /// The shot as planned, checked by finer runs; `None` where it is not known.
+    /// Check of the planned shot by finer runs; `None` if there is none.
     pub planned: Option<ShotSummary>,
     /// Method and accuracy.
     pub compute: ComputeSettings,
@@ -28,7 +28,7 @@ pub struct ShotToSample<'c> {
     pub sampling: Sampling,
     /// Samples at the usual step that other machines drew, in order of their numbers.
     pub precomputed: &'c [Sample],
-    /// Whether only a pass is of interest: sampling ends where none can come.
+    /// Whether only a pass is of interest: sampling then ends as soon as no pass can come.
     pub only_pass: bool,
 }
 
@@ -38,37 +38,37 @@ impl<'c> ShotToSample<'c> {
         Self { case, shot, planned: None, compute, sampling, precomputed: &[], only_pass: false }
     }
 
-    /// The same shot, with its check as `planned`.
+    /// The same shot, with `planned` as the check of its planned shot.
     pub fn with_planned(self, planned: ShotSummary) -> Self {
         Self { planned: Some(planned), ..self }
     }
 
-    /// The same shot, of which other machines drew samples at the usual step, in order of their numbers.
+    /// The same shot, with samples at the usual step that other machines drew, in order of their numbers.
     pub fn with_precomputed(self, precomputed: &'c [Sample]) -> Self {
         Self { precomputed, ..self }
     }
 
-    /// Fingerprint of all that its samples depend on, but for their numbers.
+    /// Fingerprint of everything that the samples depend on, except their numbers.
     pub(in crate::study) fn fingerprint(&self) -> Fingerprint {
         Fingerprint::of((self.case.fingerprint(), self.shot, self.compute, self.sampling.seed))
     }
 
-    /// The same shot, whose sampling ends as soon as no pass can come. A shot that passes gets all its samples.
+    /// The same shot, but sampling ends as soon as no pass can come. A shot that passes gets all its samples.
     pub fn only_pass(self) -> Self {
         Self { only_pass: true, ..self }
     }
 }
 
-/// One sample in so many is audited: 5 %, and more of the first ones.
+/// One sample in so many is audited: 5 %, and more of the first samples.
 const AUDIT_EVERY: usize = 20;
 const AUDIT_EVERY_AT_FIRST: usize = 10;
-/// Number of samples of which more are audited: enough for [`LEAST_AUDITS`].
+/// Number of first samples, of which more are audited: enough for [`LEAST_AUDITS`].
 const FIRST_SAMPLES: usize = AUDIT_EVERY_AT_FIRST * LEAST_AUDITS;
-/// Times that the step of a sample is halved for its audit, whose own error is a sixteenth.
+/// Number of times that the step of a sample is halved for its audit. The error of the audit is then a sixteenth.
 pub(in crate::study) const AUDIT_HALVINGS: u32 = 2;
 const AUDIT_STEP_DIVISOR: f64 = (1 << AUDIT_HALVINGS) as f64;
 
-/// Draws one sample and runs it once, without an audit: for a first look at a shot among many.
+/// Draws one sample and runs it once, without an audit: for a first look at one of many shots.
 pub(in crate::study) fn run_sample_once(
     target: &ShotToSample<'_>,
     number: usize,
@@ -77,7 +77,7 @@ pub(in crate::study) fn run_sample_once(
     undecided_if_panicked(catch_panic(|| try_sample(target, number, 0, false, control)), number)
 }
 
-/// Draws one sample and runs it, at a step halved `step_halvings` times; where the sample is one of the audit, also at a finer
+/// Draws one sample and runs it at a step halved `step_halvings` times. If the sample belongs to the audit, it also runs at a finer
 /// step.
 pub(in crate::study) fn run_sample(
     target: &ShotToSample<'_>,
@@ -88,7 +88,7 @@ pub(in crate::study) fn run_sample(
     undecided_if_panicked(catch_panic(|| try_sample(target, number, step_halvings, true, control)), number)
 }
 
-/// A sample in which the program panicked shows nothing; the others go on.
+/// A sample in which the program panicked is undecided. The other samples go on.
 fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Result<Sample, NoResult> {
     match sample {
         Err(NoResult::Panicked(_)) => Ok(Sample {
@@ -103,13 +103,13 @@ fn undecided_if_panicked(sample: Result<Sample, NoResult>, number: usize) -> Res
 
 /// Longest step of a sample [s]: it resolves a landing.
 const LONGEST_STEP: f64 = 2e-3;
-/// Greatest step of a sample over the critical step of its own scene. With it 0.1 % of verdicts are wrong, at a quarter of the step
-/// none (`benches/RESULTS.md`, "Are the verdicts right?").
+/// Greatest step of a sample over the critical step of its own scene. With this step 0.1 % of verdicts are wrong, with a quarter of
+/// it none (`benches/RESULTS.md`, "Are the verdicts right?").
 const CRITICAL_STEP_FRACTION: f64 = 0.55;
-/// Factor on the step of a sample where accuracy `reference` is asked for; draft and field use one step.
+/// Factor on the step of a sample for accuracy `reference`. Draft and field use the same step.
 const REFERENCE_STEP_FACTOR: f64 = 0.25;
 
-/// Step of a sample [s]: the fixed step where there is one.
+/// Step of a sample [s]; the fixed step if there is one.
 pub(in crate::study) fn sample_step(compute: &ComputeSettings, scene: &Scene) -> f64 {
     let level = if compute.accuracy == Accuracy::Reference { REFERENCE_STEP_FACTOR } else { 1.0 };
     let usual = LONGEST_STEP.min(CRITICAL_STEP_FRACTION * scene.critical_step());
@@ -121,7 +121,7 @@ pub fn steps_of_sample(case: &Case, compute: &ComputeSettings, end: f64) -> f64 
     end / sample_step(compute, case.scene())
 }
 
-/// Settings of the run of a sample at `step` [s], all of whose firings are shifted by `later` [s].
+/// Settings of the run of a sample at `step` [s]. All its firings are shifted by `later` [s].
 pub(in crate::study) fn sample_settings(
     case: &Case,
     compute: &ComputeSettings,
@@ -143,8 +143,8 @@ fn try_sample(
     Ok(Sample { number, run, finer, inputs: drawn.inputs })
 }
 
-/// A sample as it is judged, without its runs: of what the plan leaves open of its wiring, the worst for the shelter. It is run for that
-/// where duds leave a choice.
+/// A sample as it is judged, without its runs. If duds leave the wiring open, this is the wiring that is worst for the shelter. The
+/// sample is run to find it.
 pub(in crate::study) fn worst_drawn(
     target: &ShotToSample<'_>,
     number: usize,
@@ -159,10 +159,10 @@ pub(in crate::study) fn worst_drawn(
     worst.map_or(first, |(worst, _)| worst)
 }
 
-/// The run of a sample, and the one at a finer step where it is audited.
+/// The run of a sample, and its run at a finer step if it is audited.
 type Runs = (SampleRun, Option<SampleRun>);
 
-/// Draws a sample and runs it each way in which the plan leaves its wiring open. Returns the [worst](worst_of).
+/// Draws a sample and runs it in each way that the plan leaves open for its wiring. Returns the [worst](worst_of).
 fn run_worst(
     target: &ShotToSample<'_>,
     number: usize,
@@ -179,9 +179,9 @@ fn run_worst(
     Ok((drawn.swap_remove(worst), runs))
 }
 
-/// The worst of one or more ways in which a sample may be wired, with its index: one that fails before one that is undecided, then the one
-/// that uses most of a limit. Each of its values is the greatest of all of them, and a cable breaks where it breaks in any, so that no limit
-/// looks farther than it may be; what is traced of the sample is that worst way alone.
+/// The worst of one or more ways to wire a sample, with its index. A failure comes before an undecided run, then the greatest
+/// utilization counts. Each value of the result is the greatest of all ways, and a cable breaks if it breaks in any way. So no
+/// limit looks farther away than it may be. A trace of the sample shows the worst way alone.
 fn worst_of(all: &[Runs], limits: &Limits) -> (usize, Runs) {
     let finest = |n: usize| all[n].1.unwrap_or(all[n].0);
     let used = |n: usize| finest(n).utilization(limits);
@@ -206,7 +206,7 @@ fn worst_of(all: &[Runs], limits: &Limits) -> (usize, Runs) {
     (worst, (coarse, finer))
 }
 
-/// Runs a sample as `drawn`, at a step halved `step_halvings` times; at a finer step, too, where it is audited.
+/// Runs a sample as `drawn`, at a step halved `step_halvings` times. If it is audited, it also runs at a finer step.
 fn run_drawn(
     target: &ShotToSample<'_>,
     drawn: &DrawnShot,
@@ -216,7 +216,7 @@ fn run_drawn(
 ) -> Result<Runs, NoResult> {
     let ShotToSample { case, compute, .. } = *target;
     let DrawnShot { scene, shot, later, .. } = drawn;
-    // The run, and whether it failed or has no energy balance.
+    // Returns the run, and whether it failed or has no energy balance.
     let run = |step: f64| {
         let settings = sample_settings(case, &compute, step, *later);
         let mut cover = CoverRecorder::new(case, &shot.firings, step);
@@ -242,8 +242,8 @@ fn run_drawn(
     }
 }
 
-/// Runs a sample at `step` [s]. If that run shows nothing, runs it at the step of an audit instead. Runs a sample that is audited
-/// once more, at a still finer step. `run` returns a run and whether it shows nothing.
+/// Runs a sample at `step` [s]. If that run shows nothing, runs it at the step of an audit instead. An audited sample also runs at
+/// a still finer step. `run` returns a run, and whether it shows nothing.
 fn run_and_audit(
     step: f64,
     is_audited: bool,
@@ -262,7 +262,7 @@ pub(in crate::study) mod tests {
     use crate::choice::Method;
     use crate::study::trace::{DrawnSample, TracedShot};
 
-    /// No run is its own audit: it would bear out any verdict.
+    /// No run is its own audit. Otherwise it would confirm any verdict.
     #[test]
     fn the_audit_is_finer_than_the_run_that_counts() {
         let at_step = |shows_nothing_from: f64| {
@@ -290,7 +290,7 @@ pub(in crate::study) mod tests {
         assert_eq!(steps(10.0, true), (4.0, Some(1.0)));
     }
 
-    /// A lone tire, fired alone.
+    /// Two tires, of which one is fired.
     pub fn lone_tire() -> Case {
         let text = r#"
 shelter = { layout = "grid", rows = 1, columns = 2, spacing_m = 3 }
@@ -304,8 +304,8 @@ delay = [{ name = "1", interval_ms = 0 }]
         Case::new(crate::plan::Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")))
     }
 
-    /// One sample in ten of the first 200, one in twenty of the others. The run of the audit is that of the sample at a quarter of its
-    /// step.
+    /// One sample in ten of the first 200 is audited, and one in twenty of the others. The audit runs the sample at a quarter of
+    /// its step.
     #[test]
     fn every_twentieth_sample_is_audited_and_more_of_the_first() {
         let (case, control) = (lone_tire(), StudyControl::default());
@@ -320,14 +320,14 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert_eq!(sample(5, 0).finer, Some(sample(5, 2).run));
         assert_ne!(sample(5, 0).run, sample(5, 2).run);
         assert_eq!(run_sample_once(&target, 5, &control).expect("a sample").finer, None);
-        // Where the user fixed the step there is no other.
+        // If the user fixed the step, there is no finer run.
         let fixed = ComputeSettings { step: Some(1e-3), ..compute };
         let target = ShotToSample { compute: fixed, ..target };
         assert_eq!(run_sample(&target, 5, 0, &control).expect("a sample").finer, None);
     }
 
-    /// The step is 0.55 of the critical one, never longer than 2 ms, a quarter of that for a reference, and the fixed one where there is
-    /// one.
+    /// The step is 0.55 of the critical step, never longer than 2 ms, a quarter of that for accuracy `reference`, and the fixed
+    /// step if there is one.
     #[test]
     fn a_sample_takes_a_step_that_its_scene_allows() {
         let case = lone_tire();
@@ -353,8 +353,8 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert!(0.55 * scene.critical_step() < 2e-3, "a test that can fail");
     }
 
-    /// A failure counts before what is undecided, however much of a limit that uses; a finer run counts before a coarse one; a break in a mild one
-    /// is a break.
+    /// A failure counts before an undecided run, however great the utilization of that run. A finer run counts before a coarse run.
+    /// A break in a mild run is a break.
     #[test]
     fn the_worst_wiring_is_the_one_that_fails() {
         let limits = lone_tire().limits;
@@ -381,9 +381,9 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert_eq!(worst(&[(unknown, None), (run(fail, pass, 1.5), None)]), (1, open, None));
         assert_eq!(worst(&[(high, None), (unknown, None)]), (1, open, None));
         assert_eq!(worst(&[(high, None), (run(pass, fail, 1.0), None)]), (0, fail, None));
-        // By its finer run the second is the worse one.
+        // By its finer run, the second way is the worse.
         assert_eq!(worst(&[(high, Some(mild)), (mild, Some(run(pass, fail, 1.5)))]), (1, pass, Some(fail)));
-        // What uses most of a limit by its force flies lower than another.
+        // The way with the greatest utilization, by its force, flies lower than the other.
         let pulled = SampleRun { force: 0.9 * limits.force, cable: 3, drift: 0.1, ..mild };
         let slid = SampleRun { drift: 7.0, tire: 5, ..high };
         let (_, (run, _)) = worst_of(&[(slid, None), (pulled, None)], &limits);
@@ -391,8 +391,8 @@ delay = [{ name = "1", interval_ms = 0 }]
         assert_eq!((run.force, run.cable), (0.9 * limits.force, 3));
     }
 
-    /// A row that is fired from both ends begins with two holes, and nobody says what each of them fires: each sample is the worst of what that
-    /// leaves open, and what is traced is what was judged.
+    /// A row that is fired from both ends begins with two holes, and the plan does not say which holes each of them fires. Each
+    /// sample is the worst of the possible ways. Its trace shows the way that was judged.
     #[test]
     fn a_sample_counts_the_worst_of_what_its_wiring_leaves_open() {
         let text = r#"

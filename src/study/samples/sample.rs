@@ -1,4 +1,4 @@
-//! One sample of a shot, and what its run comes to.
+//! One sample of a shot, and the result of its run.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,41 +16,41 @@ use crate::verdict::{Estimate, Limits, PerQuantity, Quantity, Verdict};
 pub struct Sample {
     /// Number of the sample, from 0.
     pub number: usize,
-    /// Its run at the step of samples; at a finer one where that run fails or loses energy.
+    /// Run at the step of samples; at a finer step if that run fails or loses energy.
     pub run: SampleRun,
-    /// A run at a still finer step, for a sample of the audit.
+    /// Run at a still finer step, if the sample is audited.
     pub finer: Option<SampleRun>,
     /// Values of the inputs in [`Input::ALL`].
     pub inputs: [f64; Input::ALL.len()],
 }
 
 impl Sample {
-    /// Its run at the finest step.
+    /// The run at the finest step.
     pub fn finest(&self) -> &SampleRun {
         self.finer.as_ref().unwrap_or(&self.run)
     }
 }
 
-/// A sample at one step.
+/// Result of a sample at one step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SampleRun {
-    /// Whether it keeps every limit; undecided where the run ends too early, fails, loses energy, or a hole fires under no tire.
+    /// Whether the run keeps every limit. Undecided if the run ends too early, fails, loses energy, or a hole fires under no tire.
     pub verdict: Verdict,
-    /// How near a hole comes to firing under no tire, as [`Cover::uncovering`] says.
+    /// How near a hole comes to firing under no tire: see [`Cover::uncovering`].
     #[serde(default)]
     pub uncovering: f64,
-    /// Fail where a cable breaks; undecided where the verdict is, or where the run ends before one broke.
+    /// Fail if a cable breaks. Undecided if the verdict is undecided, or if the run ends early without a break.
     pub breaks: Verdict,
     /// Greatest flight height [m].
     #[serde(deserialize_with = "or_infinite")]
     pub height: f64,
-    /// Index of the tire of the greatest flight height.
+    /// Index of the tire with the greatest flight height.
     #[serde(default)]
     pub tire: usize,
-    /// Greatest cable force, of a cable of the plan's breaking force [N].
+    /// Greatest cable force, scaled to a cable with the breaking force of the plan [N].
     #[serde(deserialize_with = "or_infinite")]
     pub force: f64,
-    /// Index of the cable of the greatest force.
+    /// Index of the cable with the greatest force.
     pub cable: usize,
     /// Greatest drift at the end [m].
     #[serde(deserialize_with = "or_infinite")]
@@ -70,7 +70,7 @@ impl SampleRun {
         drift: f64::INFINITY,
     };
 
-    /// Judges a run that saw this cover over its holes; one without energy balance shows nothing.
+    /// Judges a run with this cover over its holes. A run without energy balance shows nothing.
     pub fn new(case: &Case, shot: &Shot, outcome: &Outcome, cover: &Cover) -> Self {
         let exact = |Peak { value, time, index }| Estimate { value, error: 0.0, time, index };
         let Outcome { height, force, drift, .. } = *outcome;
@@ -100,12 +100,12 @@ impl SampleRun {
         }
     }
 
-    /// Whether a hole fires over which no tire lies then: the model gives its launch to the nearest one, and knows nothing of the rock.
+    /// Whether a hole fires under no tire. The model gives its launch to the nearest tire, and knows nothing of the rock.
     pub fn is_uncovered(&self) -> bool {
         self.uncovering > 1.0
     }
 
-    /// Greatest share of a limit that the run uses.
+    /// Utilization of the run: the greatest share of a limit.
     pub fn utilization(&self, limits: &Limits) -> f64 {
         limits.utilization(|quantity| self.get(quantity))
     }
@@ -126,8 +126,9 @@ mod tests {
     use crate::outcome::{BrokenCable, EndReason, Ledger, RunEnd};
     use crate::study::as_planned::shot_reason::tests::{case, outcome};
 
-    /// A break is seen where a cable broke or was pulled past its breaking force; that none breaks, only in a run that was followed to
-    /// its end. A run without energy balance shows nothing, and one with a hole under no tire no more than its breaks.
+    /// A break shows if a cable broke or was pulled with more than its breaking force. Only a run that was followed to its end
+    /// shows that no cable breaks. A run without energy balance shows nothing. A run with a hole under no tire shows no more than
+    /// its breaks.
     #[test]
     fn a_run_shows_what_it_was_followed_for() {
         let case = case();
@@ -162,7 +163,7 @@ mod tests {
         assert_eq!(judged(&Outcome { ledger: unbalanced, ..broken }, &covered), [open, open]);
     }
 
-    /// A hole under the rim itself lies under its tire, as it does in [`CoverRecorder`](crate::study::as_planned::cover::CoverRecorder).
+    /// A hole exactly under the rim lies under its tire, as in [`CoverRecorder`](crate::study::as_planned::cover::CoverRecorder).
     #[test]
     fn only_a_hole_beyond_the_rim_is_uncovered() {
         let run = |uncovering: f64| SampleRun { uncovering, ..SampleRun::FAILED_RUN };

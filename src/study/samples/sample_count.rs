@@ -9,14 +9,14 @@ use super::influence::SAMPLES_FOR_SHARES;
 use super::sampled_shot::{SAMPLES_FOR_BANDS, SampledShot};
 use crate::verdict::Verdict;
 
-/// Samples of a round, while few are drawn and later.
+/// Samples of a round: while few are drawn, and later.
 const SHORT_ROUND: usize = 50;
 const LONG_ROUND: usize = 100;
 
-/// Most samples of a confirmation: a shot of which 0.5 % fail is confirmed at an accepted risk of 1 % in most cases.
+/// Greatest number of samples of a confirmation. In most cases it confirms a shot that fails in 0.5 % at an accepted risk of 1 %.
 const MOST_OF_CONFIRMATION: usize = 5000;
 
-/// What keeps the draws of one purpose apart from those of another.
+/// Numbers that keep the draws of one purpose apart from the draws of another.
 const SCREENING: u64 = 0x5c7e_e21f_60d1_a3b5;
 const CONFIRMATION: u64 = 0xc04f_12a7_93be_0d61;
 const ASSUMPTIONS: u64 = 0x91d3_5b0e_7c2a_f846;
@@ -30,12 +30,12 @@ pub struct Sampling {
     pub most: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// The share of the probability of an error that a verdict takes.
+    /// Share of the error probability that a verdict takes.
     pub error_share: ErrorShare,
 }
 
 impl Sampling {
-    /// The sampling of a verdict: enough for the shares of the inputs, and more until the verdict is sure.
+    /// The sampling of a verdict: enough samples for the shares of the inputs, and more until the verdict is sure.
     pub const OF_VERDICT: Self =
         Self { least: SAMPLES_FOR_SHARES, most: 2000, seed: 1, error_share: ErrorShare::Whole };
 
@@ -47,18 +47,18 @@ impl Sampling {
         Self { least: count, most: count, seed, error_share: ErrorShare::Whole }
     }
 
-    /// Samples of a first look at many shots: 100 of each, fewer of those that surely fail too often.
+    /// The sampling of a first look at many shots: 100 samples of each, fewer if a shot surely fails too often.
     pub fn first_look(&self) -> Self {
         Self { least: 0, most: SAMPLES_FOR_BANDS.min(self.most), ..*self }
     }
 
-    /// Whether no more samples are needed: there are as many as there may be, or enough for a verdict that the audit bears out.
+    /// Whether no more samples are needed: the greatest number is drawn, or enough for a verdict that the audit confirms.
     pub fn is_complete(&self, sampled: &SampledShot) -> bool {
         let drawn = sampled.samples.len();
         drawn >= self.most || drawn >= self.least && sampled.verdict_once_audited() != Verdict::Undecided
     }
 
-    /// Numbers of the samples to draw next; none once they are complete.
+    /// Numbers of the samples to draw next; empty once the samples are complete.
     pub(super) fn next_round(&self, sampled: &SampledShot) -> Range<usize> {
         let drawn = sampled.samples.len();
         if self.is_complete(sampled) {
@@ -73,13 +73,13 @@ impl Sampling {
         Self { seed: mixed(self.seed ^ SCREENING), error_share: ErrorShare::Whole, ..*self }
     }
 
-    /// Draws that find how far a verdict holds. A shot that was chosen for failing seldom in [those](Self::for_screening) of a search is
-    /// judged by others.
+    /// Draws that find how far a verdict holds. A search may choose a shot because it fails seldom in
+    /// [its draws](Self::for_screening). So the shot is judged by these other draws.
     pub fn for_assumptions(&self) -> Self {
         Self { seed: mixed(self.seed ^ ASSUMPTIONS), error_share: ErrorShare::Whole, ..*self }
     }
 
-    /// Draws for the `n`-th shot that one question confirms, n from 1. Nothing before used them: they follow from the seed alone.
+    /// Draws for the `n`-th shot that one question confirms, n from 1. Nothing used them before: they follow from the seed alone.
     pub fn for_confirmation(&self, n: usize) -> Self {
         Self {
             least: 0,
@@ -89,7 +89,7 @@ impl Sampling {
         }
     }
 
-    /// The sampling of a shot that fails as planned: only to show by how much.
+    /// The sampling of a planned shot that fails: only to show by how much.
     pub fn least_only(&self) -> Self {
         Self { most: self.least, ..*self }
     }
@@ -119,7 +119,7 @@ mod tests {
         assert_eq!([mixed(0), mixed(1)], [0xe220_a839_7b1d_cdaf, 0x910a_2dec_8902_5cc1]);
     }
 
-    /// Draws for a verdict, for a screening, for what a verdict stands on and for a confirmation have seeds of their own, whatever the seed.
+    /// Verdict, screening, assumptions and confirmation each have their own seed, whatever the seed.
     #[test]
     fn no_purpose_uses_the_draws_of_another() {
         let of_seed = |seed: u64| {
@@ -138,15 +138,15 @@ mod tests {
         assert_eq!(third.for_screening().error_share, ErrorShare::Whole, "no verdict rests on it");
     }
 
-    /// 100 of each, or as many as there may be; none that a sure failure does not need.
+    /// 100 samples of each shot, or as many as are allowed. There is no least number, because a sure failure does not need it.
     #[test]
     fn a_first_look_takes_few_samples() {
         let look = |most: usize| Sampling { most, ..Sampling::OF_VERDICT }.first_look();
         assert_eq!([look(2000).least, look(2000).most, look(60).most], [0, 100, 60]);
     }
 
-    /// Rounds of 50 up to 200 samples, then of 100, until the bounds tell: 500 passes do, and so does the least number where a
-    /// shot fails as planned.
+    /// Rounds of 50 up to 200 samples, then rounds of 100, until the bounds decide. 500 passes decide. If the planned shot fails,
+    /// the least number is enough.
     #[test]
     fn rounds_end_where_the_bounds_tell() {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();

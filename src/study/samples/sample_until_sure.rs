@@ -1,4 +1,4 @@
-//! Samples of many shots, drawn and run in rounds until each risk is sure.
+//! Draws and runs samples of many shots in rounds, until each risk is sure.
 
 use std::collections::BTreeSet;
 use std::ops::{ControlFlow, Range};
@@ -19,13 +19,13 @@ impl ShotToSample<'_> {
         self.sampling.next_round(sampled)
     }
 
-    /// The sample of a number, where another machine drew it.
+    /// Sample `number`, if another machine drew it.
     fn drawn_elsewhere(&self, number: usize) -> Option<&Sample> {
         let found = self.precomputed.binary_search_by_key(&number, |sample| sample.number);
         found.ok().map(|n| &self.precomputed[n])
     }
 
-    /// Number of samples that are still expected: as many as a pass takes, or as many again as were drawn.
+    /// Number of samples still expected: as many as a pass takes, or as many again as were drawn.
     fn expected(&self, sampled: &SampledShot) -> usize {
         let (drawn, next) = (sampled.samples.len(), self.next_round(sampled).len());
         if next == 0 {
@@ -35,7 +35,7 @@ impl ShotToSample<'_> {
         all.saturating_sub(drawn).max(next)
     }
 
-    /// Whether it may be sampled anew at half the step, after so many times: not where the user fixed the step.
+    /// Whether the shot may be sampled anew at half the step, after so many halvings: not if the user fixed the step.
     fn may_halve(&self, step_halvings: u32) -> bool {
         self.compute.step.is_none() && step_halvings < MOST_STEP_HALVINGS
     }
@@ -45,22 +45,22 @@ impl ShotToSample<'_> {
     }
 }
 
-/// Samples that a pass usually takes.
+/// Usual number of samples of a pass.
 pub const USUAL_OF_PASS: usize = 500;
-/// The accepted risk at which it does.
+/// The accepted risk at which a pass takes so many.
 pub const RISK_OF_USUAL: f64 = 0.01;
-/// Most times that a shot is sampled anew at half the step.
+/// Greatest number of times that a shot is sampled anew at half the step.
 const MOST_STEP_HALVINGS: u32 = 3;
 
-/// Draws and runs samples of every shot, until its risk is sure.
+/// Draws and runs samples of every shot until its risk is sure.
 ///
-/// The result is partial where a shot has no more samples than the time sufficed for.
+/// The result is partial if the time ran out before a shot had all its samples.
 pub fn sample_shots(targets: &[ShotToSample<'_>], control: &StudyControl) -> ComputeResult<Vec<SampledShot>> {
     sample_shots_watched(targets, control, &mut |_, _| ControlFlow::Continue(()))
 }
 
-/// Like [`sample_shots`]; `watch` sees every shot after each of its rounds, and may end the sampling of all: what it ended is not
-/// partial.
+/// Like [`sample_shots`]. `watch` gets every shot after each of its rounds, and may end the sampling of all shots. A result that
+/// `watch` ended is not partial.
 pub fn sample_shots_watched(
     targets: &[ShotToSample<'_>],
     control: &StudyControl,
@@ -89,7 +89,7 @@ pub fn sample_shots_watched(
         let out_of_time = drawn.contains(&None);
         let mut complete = vec![true; targets.len()];
         for (&(n, ..), sample) in jobs.iter().zip(drawn) {
-            // Samples are counted in order, so that a result is that of so many samples.
+            // Samples count in order. So a result is always the result of the first so many samples.
             complete[n] &= sample.is_some();
             if let Some(sample) = sample.filter(|_| complete[n]) {
                 sampled_shots[n].push(sample);
@@ -112,13 +112,13 @@ pub fn sample_shots_watched(
     }
 }
 
-/// Keys of shots in the journal; `None` where there is no journal.
+/// Keys of shots in the journal; `None` without a journal.
 fn keys(targets: &[ShotToSample<'_>], control: &StudyControl) -> Vec<Option<Fingerprint>> {
     let is_on = control.journal().is_on();
     targets.iter().map(|target| is_on.then(|| target.fingerprint())).collect()
 }
 
-/// The sample of [`run_sample`], taken from the journal where it is there; `key` is that of the shot.
+/// The sample of [`run_sample`], recalled from the journal if it is there. `key` is the key of the shot.
 fn recall_sample(
     target: &ShotToSample<'_>,
     key: Option<Fingerprint>,
@@ -130,7 +130,7 @@ fn recall_sample(
     control.journal().recall_or(key, || run_sample(target, number, step_halvings, control))
 }
 
-/// Draws and runs the samples of every shot that belong to `shard`; `None` for those that the time did not suffice for.
+/// Draws and runs the samples of every shot that belong to `shard`; `None` for samples that ran out of time.
 pub fn run_shard(
     targets: &[ShotToSample<'_>],
     shard: Shard,
@@ -156,7 +156,7 @@ mod tests {
     use crate::study::samples::sample_count::Sampling;
     use crate::verdict::Verdict;
 
-    /// Samples drawn elsewhere count as they are. Here their audit contradicts them, and all are drawn anew at half the step.
+    /// Samples drawn elsewhere count as they are. Here their audit contradicts them, so all are drawn anew at half the step.
     #[test]
     fn samples_drawn_elsewhere_are_taken_at_the_usual_step_only() {
         let (case, control) = (lone_tire(), StudyControl::default());
@@ -183,13 +183,13 @@ mod tests {
         for number in [0, 5, 99] {
             assert_eq!(Ok(sampled.samples[number]), run_sample(&target, number, 1, &control));
         }
-        // Where the user fixed the step, it is not halved.
+        // If the user fixed the step, it is not halved.
         let fixed = ShotToSample { compute: ComputeSettings { step: Some(1e-3), ..compute }, ..target };
         let sampled = sample_shots(&[fixed], &control).expect("samples").value.remove(0);
         assert_eq!((sampled.step_halvings, sampled.samples), (0, made_up.clone()));
     }
 
-    /// A shot is sampled anew three times at most. One that shall only pass is sampled while it can.
+    /// A shot is sampled anew three times at most. A shot of which only a pass is of interest is sampled while it can pass.
     #[test]
     fn sampling_ends_where_it_shows_no_more() {
         let case = lone_tire();
@@ -208,7 +208,7 @@ mod tests {
         assert!(only_pass.next_round(&sampled).is_empty() && !target.next_round(&sampled).is_empty());
     }
 
-    /// Two machines draw every sample of every shot once, each as one machine would.
+    /// Two machines together draw every sample of every shot once, as one machine would.
     #[test]
     fn shards_draw_what_one_machine_would() {
         let (case, control) = (lone_tire(), StudyControl::default());

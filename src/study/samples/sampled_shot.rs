@@ -1,8 +1,9 @@
-//! What the samples of a shot tell: how likely it fails when the unknowns vary as `[uncertainty]` says.
+//! Result of the samples of a shot: how likely the shot fails when the unknowns vary as `[uncertainty]` says.
 //!
-//! A sample is run once, at a coarse step: its error falls to both sides of a limit, and the failure probability is far more exact
-//! than any one sample. The audit runs some of them again at a finer step. Where these runs, or the shot as planned, contradict the
-//! samples, the risk is open, and [`sample_shots`](super::sample_until_sure::sample_shots) samples the shot anew at half the step.
+//! A sample runs once, at a coarse step. The error of that step falls to both sides of a limit. So the failure probability is far
+//! more exact than any one sample. The audit runs some samples again at a finer step. If these runs, or the planned shot,
+//! contradict the samples, the risk is open. Then [`sample_shots`](super::sample_until_sure::sample_shots) samples the shot anew at
+//! half the step.
 
 use std::collections::BTreeMap;
 use std::iter::repeat_n;
@@ -17,18 +18,18 @@ use crate::sorting::{sort_by, sorted_by};
 use crate::study::{Case, ShotSummary};
 use crate::verdict::{Limits, PerQuantity, Quantity, Verdict};
 
-/// Factor on a difference to one side, because the audit has an error of its own.
+/// Factor on a difference to one side. The audit has an error of its own, so the factor is greater than 1.
 const BIAS_ALLOWANCE: f64 = 2.0;
-/// Probability below which a difference between samples and audit is more than chance.
+/// Probability below which a difference between samples and audit counts as more than chance.
 const SIGNIFICANCE: f64 = 0.01;
-/// Quantile of the normal distribution that both sides together exceed with the probability [`SIGNIFICANCE`].
+/// Normal deviate that both sides together exceed with the probability [`SIGNIFICANCE`].
 const SIGNIFICANT_DEVIATIONS: f64 = 2.576;
-/// Samples of the audit without which no risk passes.
+/// Least number of audited samples. With fewer, no risk passes.
 pub const LEAST_AUDITS: usize = 20;
 /// Samples needed for bands.
 pub const SAMPLES_FOR_BANDS: usize = 100;
 
-/// The samples of one shot, in order of their numbers, and what they tell.
+/// The samples of one shot, in order of their numbers, and their result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledShot {
     /// The samples.
@@ -37,33 +38,33 @@ pub struct SampledShot {
     pub bounds: FailureBounds,
     /// Bounds of the probability that a cable breaks.
     pub breaks: FailureBounds,
-    /// Times that the step was halved because finer runs contradicted the samples.
+    /// Number of times that the step was halved because finer runs contradicted the samples.
     pub step_halvings: u32,
-    /// Whether samples are audited: not where the user fixed the step.
+    /// Whether samples are audited: not if the user fixed the step.
     is_audited: bool,
     /// Whether the launch velocity is an estimate that nobody observed.
     launch_is_estimated: bool,
-    /// Force at which a cable breaks and is gone, so that no run tells a greater one [N]; infinite where none breaks.
+    /// Force at which a cable breaks and is gone, so that no run shows a greater force [N]; infinite if no cable breaks.
     breaking_force: f64,
     planned: Option<ShotSummary>,
     limits: Limits,
     reason: FoundOnce,
 }
 
-/// Why the samples do not pass, found once for all samples so far: who draws a screen asks for it all the time.
+/// Why the samples do not pass. Found once for all samples so far, because the screen asks for it all the time.
 #[derive(Clone, Debug, Default)]
 struct FoundOnce(OnceLock<Option<RiskReason>>);
 
 impl PartialEq for FoundOnce {
-    /// It follows from the samples.
+    /// Always equal, because the reason follows from the samples.
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
 impl SampledShot {
-    /// A shot without samples, checked as `planned`; the plan of `case` names the accepted risk.
-    /// Its verdict takes this share of the probability of an error.
+    /// A shot without samples, checked as `planned`. The plan of `case` names the accepted risk. The verdict takes `share` of the
+    /// error probability.
     pub fn new(case: &Case, planned: Option<ShotSummary>, share: ErrorShare, is_audited: bool) -> Self {
         let limits = case.limits;
         let bounds = FailureBounds::new(limits.accepted_risk, share);
@@ -82,7 +83,7 @@ impl SampledShot {
         }
     }
 
-    /// Takes the next sample; one of the audit counts as it is at the finer step.
+    /// Adds the next sample. An audited sample counts by its run at the finer step.
     pub fn push(&mut self, sample: Sample) {
         let SampleRun { verdict, breaks, .. } = *sample.finest();
         self.bounds.push(verdict);
@@ -91,17 +92,17 @@ impl SampledShot {
         self.reason = FoundOnce::default();
     }
 
-    /// Lower and upper bound of the failure probability after the first `counts` samples, none less than the one before.
+    /// Lower and upper bound of the failure probability after the first `counts` samples; `counts` never decrease.
     pub fn bounds_after(&self, counts: &[usize]) -> Vec<[f64; 2]> {
         self.bounds.after(self.samples.iter().map(|sample| sample.finest().verdict), counts)
     }
 
-    /// The verdict of the samples: what their [`reason`](Self::reason) leads to, and a pass where there is none.
+    /// The verdict of the samples: the verdict of their [`reason`](Self::reason), or a pass if there is none.
     pub fn verdict(&self) -> Verdict {
         self.reason().map_or(Verdict::Pass, RiskReason::verdict)
     }
 
-    /// Why the samples do not pass; `None` where they do. If finer runs contradict the samples, they prove no fail either.
+    /// Why the samples do not pass; `None` if they do. If finer runs contradict the samples, the samples prove no fail either.
     pub fn reason(&self) -> Option<RiskReason> {
         *self.reason.0.get_or_init(|| self.find_reason())
     }
@@ -130,7 +131,7 @@ impl SampledShot {
         }
     }
 
-    /// Whether finer runs contradict the samples: those of the audit beyond chance, or the shot as planned.
+    /// Whether finer runs contradict the samples: the runs of the audit beyond chance, or the planned shot.
     pub fn finer_runs_disagree(&self) -> bool {
         self.audit_differs() || self.is_biased() || self.planned_exceeds_samples()
     }
@@ -150,7 +151,7 @@ impl SampledShot {
         passes && Quantity::ALL.into_iter().any(would_fail)
     }
 
-    /// Whether the samples of the audit fail more often or less often at the finer step, beyond chance: a sign test on those
+    /// Whether audited samples fail more often or less often at the finer step, beyond chance. This is a sign test on the samples
     /// that change (McNemar 1947).
     fn audit_differs(&self) -> bool {
         let count = |more: bool| {
@@ -162,18 +163,19 @@ impl SampledShot {
         sign_test_rejects(count(true), count(false))
     }
 
-    /// The value of a quantity in a run [its SI unit]; infinite for the force in a cable that broke and is gone.
+    /// The value of a quantity in a run [its SI unit]; infinite for the force of a cable that broke and is gone.
     fn value(&self, run: &SampleRun, quantity: Quantity) -> f64 {
         self.uncapped(quantity, run.get(quantity))
     }
 
-    /// A value of a run [its SI unit]: the force of a cable that broke and is gone is infinite, since it would have grown on.
+    /// A value of a quantity [its SI unit]. The force of a cable that broke and is gone becomes infinite, because it would have
+    /// grown further.
     fn uncapped(&self, quantity: Quantity, value: f64) -> f64 {
         let broke = quantity == Quantity::Force && value >= self.breaking_force;
         if broke { f64::INFINITY } else { value }
     }
 
-    /// Whether a cable broke in a run, and was gone from then on.
+    /// Whether a cable broke in a run and was gone from then on.
     pub fn lost_a_cable(&self, run: &SampleRun) -> bool {
         self.value(run, Quantity::Force) == f64::INFINITY && run.verdict != Verdict::Undecided
     }
@@ -183,24 +185,23 @@ impl SampledShot {
         self.samples.iter().filter(|sample| sample.finest().is_uncovered()).count()
     }
 
-    /// The samples of which no run is undecided.
+    /// The samples without an undecided run.
     pub fn decided(&self) -> impl Iterator<Item = &Sample> {
         let is_decided = |run: &SampleRun| run.verdict != Verdict::Undecided;
         self.samples.iter().filter(move |sample| is_decided(&sample.run) && is_decided(sample.finest()))
     }
 
-    /// The runs of the samples of the audit, each at both steps.
+    /// The runs of the audited samples, each at both steps: coarse, then finer.
     fn audited(&self) -> impl Iterator<Item = (&SampleRun, &SampleRun)> {
         self.samples.iter().filter_map(|sample| Some((&sample.run, sample.finer.as_ref()?)))
     }
 
-    /// Whether the error of the step, if all samples have it alike, would change the verdict. This is so where little is unknown:
-    /// then no single sample changes its verdict between two steps, and all would together.
+    /// Whether the error of the step would change the verdict if all samples had the same error. This happens if the uncertainty is
+    /// small: then no single sample changes its verdict between two steps, but all together would.
     ///
-    /// 1. What differs: the values of the audit at the finer step lie to one side of those at the coarser one, beyond chance.
+    /// 1. The values of the audit at the finer step lie to one side of the values at the coarser step, beyond chance.
     /// 2. The values of all samples are moved to that side by [`BIAS_ALLOWANCE`] times the mean difference.
-    /// 3. The samples are contradicted where the share that fails then lies outside the bounds, or on the other side of the
-    ///    accepted risk.
+    /// 3. The share that then fails contradicts the samples if it lies outside the bounds, or on the other side of the accepted risk.
     fn is_biased(&self) -> bool {
         let factors = PerQuantity::from_fn(|quantity| self.bias_factor(quantity));
         let fails = |sample: &&Sample| {
@@ -211,11 +212,11 @@ impl SampledShot {
         let is_moved = factors.iter().any(|&factor| factor != 1.0);
         let [low, high] = self.bounds.interval;
         let is_outside = is_moved && !(low..=high).contains(&share);
-        // A share below the accepted one is outside the bounds of a fail.
+        // A share below the accepted share is outside the bounds of a fail.
         is_outside || self.bounds.verdict() == Verdict::Pass && share > self.bounds.accepted
     }
 
-    /// Factor by which a quantity is to be moved: 1, unless the finer values lie to one side beyond chance.
+    /// Factor that moves a quantity: 1, unless the finer values lie to one side beyond chance.
     fn bias_factor(&self, quantity: Quantity) -> f64 {
         let pairs = self.audited().map(|runs| <[_; 2]>::from(runs).map(|run| self.value(run, quantity)));
         let known = pairs.filter(|values| values.iter().all(|value| value.is_finite()));
@@ -229,19 +230,19 @@ impl SampledShot {
     }
 
     /// The value of a quantity that no more than the accepted share of the decided samples exceeds; `None` for fewer than
-    /// [`SAMPLES_FOR_BANDS`]. A sample that was audited counts by its finer run, as it does for the verdict.
+    /// [`SAMPLES_FOR_BANDS`]. An audited sample counts by its finer run, as it does for the verdict.
     pub fn deciding_value(&self, quantity: Quantity) -> Option<f64> {
         let value = self.deciding_by(quantity)?.finest().get(quantity);
         (self.decided().count() >= SAMPLES_FOR_BANDS).then_some(value)
     }
 
-    /// The share of all shots that are above the [`deciding_value`](Self::deciding_value): the accepted one, or one of the decided samples where
-    /// these are too few to leave any out. Of 200 samples the greatest says nothing of 1 shot in 1000.
+    /// Share of all shots above the [`deciding_value`](Self::deciding_value): the accepted share. If there are too few decided
+    /// samples to leave any out, it is one of them: the greatest of 200 samples says nothing about 1 shot in 1000.
     pub fn share_above(&self) -> f64 {
         self.bounds.accepted.max(1.0 / self.decided().count().max(1) as f64)
     }
 
-    /// Number of the decided sample that has the [`deciding_value`](Self::deciding_value) of a quantity; of equal ones the first.
+    /// Number of the decided sample with the [`deciding_value`](Self::deciding_value) of a quantity; of equal samples the first.
     /// `None` without a decided sample.
     pub fn deciding_sample_by(&self, quantity: Quantity) -> Option<usize> {
         self.deciding_by(quantity).map(|sample| sample.number)
@@ -255,7 +256,7 @@ impl SampledShot {
         self.decided().find(|sample| value(sample) == deciding)
     }
 
-    /// Cables with the greatest force of a decided sample, and the share of these samples in which each is; most frequent first.
+    /// Cables with the greatest force in a decided sample, each with its share of these samples, most frequent first.
     pub fn hardest_pulled_cables(&self) -> Vec<(usize, f64)> {
         let all = self.decided().map(|sample| sample.finest()).filter(|run| run.force > 0.0);
         let counts: BTreeMap<usize, usize> = all.map(|run| run.cable).counts().into_iter().collect();
@@ -266,14 +267,14 @@ impl SampledShot {
         cables
     }
 
-    /// The tire that rises to the [`deciding_value`](Self::deciding_value) of the height. It is seldom that of the planned shot.
+    /// The tire that reaches the [`deciding_value`](Self::deciding_value) of the height. It is seldom the tire of the planned shot.
     pub fn deciding_tire(&self) -> Option<usize> {
         self.deciding_value(Quantity::Height)?;
         self.deciding_by(Quantity::Height).map(|sample| sample.finest().tire)
     }
 
-    /// The cables that are pulled hardest in some decided sample, each with its greatest force there [N], the greatest first.
-    /// Samples beyond the [`deciding_value`](Self::deciding_value) are left out. The first cable is seldom that of the planned shot.
+    /// The cables that are pulled hardest in some decided sample, each with its greatest force there [N], greatest first. Samples
+    /// above the [`deciding_value`](Self::deciding_value) are left out. The first cable is seldom the cable of the planned shot.
     pub fn deciding_cables(&self) -> Option<Vec<(usize, f64)>> {
         let most = self.deciding_value(Quantity::Force)?;
         let runs = self.decided().map(|sample| sample.finest());
@@ -283,16 +284,16 @@ impl SampledShot {
         Some(sorted_by(forces, |a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0))))
     }
 
-    /// Number of the sample that decides. The decided samples are sorted by how much of a limit they use, and the accepted share at
-    /// the top is left out: the next one decides, of equal ones the first. `None` without a decided sample.
+    /// Number of the sample that decides. The decided samples are sorted by utilization. The accepted share at the top is left out,
+    /// and the next sample decides; of equal samples the first. `None` without a decided sample.
     pub fn deciding_sample(&self) -> Option<usize> {
         let mut decided: Vec<(f64, usize)> = self.decided().map(|s| (self.share(s), s.number)).collect();
         sort_by(&mut decided, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         decided.get(self.left_out()).or(decided.last()).map(|&(_, number)| number)
     }
 
-    /// How much of a limit all samples but the accepted share use at most. What is undecided may use any share of it: it counts as infinite,
-    /// as a broken cable does.
+    /// Greatest utilization of all samples, with the accepted share at the top left out. An undecided sample may have any
+    /// utilization, so it counts as infinite, like a broken cable.
     pub fn deciding_share(&self) -> f64 {
         let undecided = repeat_n(f64::INFINITY, self.samples.len() - self.decided().count());
         let mut shares: Vec<f64> = self.decided().map(|sample| self.share(sample)).chain(undecided).collect();
@@ -305,12 +306,12 @@ impl SampledShot {
         left_out(self.bounds.accepted, self.samples.len())
     }
 
-    /// Number of decided samples that it leaves out: what is undecided may be worse, and is left out first.
+    /// Number of decided samples that the accepted share leaves out. Undecided samples may be worse, so they are left out first.
     fn left_out_of_decided(&self) -> usize {
         self.left_out().saturating_sub(self.samples.len() - self.decided().count())
     }
 
-    /// How much of a limit a sample uses.
+    /// Utilization of a sample.
     fn share(&self, sample: &Sample) -> f64 {
         self.limits.utilization(|quantity| self.value(sample.finest(), quantity))
     }
@@ -335,8 +336,8 @@ pub(in crate::study) fn percentiles<const N: usize>(
     (!sorted.is_empty()).then(|| shares.map(value_below))
 }
 
-/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945): ten of which nine are alike and
-/// large, and one is small, do.
+/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945). An example of ten changes: nine are
+/// alike and large, and one is small.
 fn lies_to_one_side(changes: &[f64]) -> bool {
     let mut changes: Vec<f64> = changes.iter().copied().filter(|&change| change != 0.0).collect();
     sort_by(&mut changes, |a, b| a.abs().total_cmp(&b.abs()));
@@ -346,7 +347,7 @@ fn lies_to_one_side(changes: &[f64]) -> bool {
     ranks.sum::<f64>().abs() > SIGNIFICANT_DEVIATIONS * deviation
 }
 
-/// Whether of samples that change, `more` to one side and `fewer` to the other, one side has more than by chance.
+/// Whether one side has more changes than by chance: `more` samples change to one side, `fewer` to the other.
 fn sign_test_rejects(more: usize, fewer: usize) -> bool {
     let all = (more + fewer) as f64;
     let mut term = (-all * std::f64::consts::LN_2).exp();
@@ -358,7 +359,7 @@ fn sign_test_rejects(more: usize, fewer: usize) -> bool {
     2.0 * tail < SIGNIFICANCE
 }
 
-/// Number of so many samples that the accepted share leaves out.
+/// Number of samples that the accepted share leaves out.
 pub fn left_out(accepted: f64, samples: usize) -> usize {
     (accepted * samples as f64 + 1e-9) as usize
 }
@@ -369,8 +370,8 @@ mod tests {
     use super::*;
     use crate::plan::PlanSource;
 
-    /// Of n changes, half are expected to each side: 8 of 8 have a probability of 2/256, 7 of 7 of 2/128; 10 of 11 one of
-    /// 24/2048, 11 of 12 one of 26/4096; 12 of 14 one of 212/16384, 13 of 15 one of 242/32768, 15 of 18 one of 1976/262144.
+    /// Of n changes, half are expected to each side. 8 of 8 have a probability of 2/256, and 7 of 7 of 2/128; 10 of 11 of 24/2048,
+    /// and 11 of 12 of 26/4096; 12 of 14 of 212/16384, 13 of 15 of 242/32768, and 15 of 18 of 1976/262144.
     #[test]
     fn an_audit_differs_only_beyond_chance() {
         assert!(
@@ -383,7 +384,8 @@ mod tests {
         assert!(!sign_test_rejects(12, 2) && sign_test_rejects(2, 13) && sign_test_rejects(15, 3));
     }
 
-    /// With n of one sign the rank sum is n (n + 1)/2: 36 of 8 is 2.52 deviations of 14.28, 45 of 9 is 2.67 of 16.88.
+    /// With n changes of one sign the rank sum is n (n + 1)/2: for 8 it is 36, or 2.52 deviations of 14.28; for 9 it is 45, or 2.67
+    /// of 16.88.
     #[test]
     fn changes_lie_to_one_side_only_beyond_chance() {
         let alike = |count: usize| (0..count).map(|n| 0.03 + 1e-4 * n as f64).collect::<Vec<_>>();
@@ -394,8 +396,8 @@ mod tests {
         assert!(!lies_to_one_side(&both));
     }
 
-    /// A hundred samples that fail, all of which pass at the finer step: the bounds on the way are those of the finer runs. A run in which
-    /// nothing is pulled has no cable that decides.
+    /// A hundred samples fail, and all of them pass at the finer step. The bounds on the way are the bounds of the finer runs. A
+    /// run in which nothing is pulled has no deciding cable.
     #[test]
     fn the_finer_run_counts_on_the_way_too_and_no_cable_is_pulled_by_nothing() {
         let case = crate::study::as_planned::shot_reason::tests::case();
@@ -414,7 +416,8 @@ mod tests {
         assert_eq!(sampled.deciding_cables(), Some(Vec::new()));
     }
 
-    /// What is undecided may be worse than all that is decided: of 5 that may be worse than the shot that decides, 3 are undecided.
+    /// Undecided samples may be worse than all decided samples. Five samples may be worse than the deciding sample; three of them
+    /// are undecided.
     #[test]
     fn undecided_samples_are_left_out_first() {
         let mut case = crate::study::as_planned::shot_reason::tests::case();
@@ -430,8 +433,8 @@ mod tests {
         assert_eq!(sampled.deciding_sample_by(Quantity::Height), Some(97));
     }
 
-    /// Samples of 0.98 times the limit that are 1.2 % higher at the finer step: twice that is past the limit, though none of them
-    /// changes its verdict. Of 0.8 %, twice that is not. A tenth of the error, or the error once, would pass both.
+    /// Samples at 0.98 of the limit are 1.2 % higher at the finer step. Twice 1.2 % exceeds the limit, though no sample changes its
+    /// verdict. Twice 0.8 % does not. A tenth of the error, or the error once, would pass both.
     #[test]
     fn an_error_to_one_side_counts_twice() {
         let text = include_str!("../../../plans/paper-5-tire.toml").to_owned();

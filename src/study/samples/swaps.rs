@@ -1,23 +1,23 @@
-//! Blast rows that may fire in the reverse order, because the detonators in their holes scatter.
+//! Blast rows that may fire in reverse order, because the detonators in their holes scatter.
 
 use crate::plan::Time;
 use crate::sorting::sorted;
 use crate::study::Case;
 
-/// Two successive blast rows that may fire in the reverse order.
+/// Two successive blast rows that may fire in reverse order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swap {
     /// Indices of the blast rows, in the planned order.
     pub rows: [usize; 2],
     /// Planned interval between the rows [s].
     pub interval: f64,
-    /// Probability that the first hole of the second row fires before the first hole of the first row; where the holes of a row
-    /// fire together, of any one hole of each.
+    /// Probability that the first hole of the second row fires before the first hole of the first row. If the holes of a row fire
+    /// together, it is the probability for any one hole of each row.
     pub probability: f64,
 }
 
-/// Pairs of successive rows of an option that fire in reverse order with a probability of at least `least`: the first hole of the
-/// second row before the first hole of the first row.
+/// Pairs of successive rows of an option that fire in reverse order with a probability of at least `least`. In reverse order, the
+/// first hole of the second row fires before the first hole of the first row.
 pub fn find_swaps(case: &Case, option: usize, least: f64) -> Vec<Swap> {
     let uncertainty = &case.plan.uncertainty;
     let in_hole = uncertainty.in_hole_deviation();
@@ -40,9 +40,9 @@ mod tests {
     use super::*;
     use crate::plan::{DelayScatter, Plan};
 
-    /// Two rows 20 ms apart: the gap between them scatters by 10 ms, and so does each hole: with √3 × 10 ms the probability is
-    /// 1 − Φ(20 / 17.32) = 0.1241, and for 45 ms it is 0.0047. Rows that fire together have no order, and those whose holes fire with
-    /// their rows keep it.
+    /// Two rows fire 20 ms apart. The gap between them scatters by 10 ms, and so does each hole. With √3 × 10 ms the probability is
+    /// 1 − Φ(20 / 17.32) = 0.1241; for 45 ms it is 0.0047. Rows that fire together have no order. Rows whose holes fire with the
+    /// row keep their order.
     #[test]
     fn rows_that_may_swap_are_named() {
         let text = r#"

@@ -1,11 +1,11 @@
-//! The firing schedules with the least risk, among those that `[search]` allows.
+//! Searches the firing schedules with the least risk among the schedules that `[search]` allows.
 //!
-//! 1. Candidates: the schedules within the longest duration, and the most holes and the heaviest charge within 8 ms. Up to
-//!    500,000 possible schedules all are looked at. Up to [`MOST_TRIED`] candidates all are tried; where there are more,
-//!    2,000 at random, then the neighbours of the best, the neighbours of these, and so on. Mirror images are one.
-//! 2. Successive halving ([`successive_halving`]): a few samples of each, twice as many of the better half, and so on.
-//! 3. The best that differ from one another become delay options, which are judged and confirmed as `check` does it: the draws that
-//!    chose them flatter them.
+//! 1. Candidates are the schedules that keep the longest duration, and the most holes and the heaviest charge within 8 ms. Of up to
+//!    500,000 possible schedules all are examined. Of up to [`MOST_TRIED`] candidates all are tried. If there are more, the search
+//!    tries 2,000 at random, then the neighbors of the best, then the neighbors of these, and so on. Mirror images count as one.
+//! 2. Successive halving ([`successive_halving`]): a few samples of each candidate, twice as many of the better half, and so on.
+//! 3. The best candidates that differ from one another become delay options. They are judged and confirmed as `check` does it,
+//!    because the draws that chose them make them look too good.
 
 mod schedule;
 mod schedules_to_try;
@@ -30,74 +30,75 @@ use crate::plan::{DelayOption, Plan, edit};
 use crate::sorting::{sort_by_key, sorted_by};
 use crate::verdict::Verdict;
 
-/// First samples of each schedule, where all are screened.
+/// First samples of each schedule if all are screened.
 const FIRST_OF_ALL: usize = 16;
-/// Most schedules in the report.
+/// Greatest number of schedules in the report.
 const MOST_REPORTED: usize = 10;
-/// Shares of what is left that looking for schedules takes, where not all are tried, and screening those that were found.
+/// Shares of the remaining progress: for exploring if not all schedules are tried, and for screening.
 const SHARE_OF_EXPLORING: f64 = 0.4;
 const SHARE_OF_SCREENING: f64 = 0.2;
-/// Schedules with a full verdict.
+/// Greatest number of schedules with a full verdict.
 const JUDGED_IN_FULL: usize = 12;
-/// A schedule with fewer samples is left out of the front of risk against duration.
+/// Least number of samples of a schedule in the front of risk against duration.
 const SAMPLES_OF_FRONT: usize = 256;
 
-/// What a search found.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Search {
-    /// The plan with the schedules found as its delay options, the best first.
+    /// The plan, with the found schedules as its delay options, best first.
     pub case: Case,
     /// The schedules (`n_options` of the case).
     pub schedules: Vec<Schedule>,
-    /// Their results, as those of delay options.
+    /// Results of the schedules, as of delay options.
     pub results: OptionResults,
-    /// Their shares among the samples that chose them.
+    /// Failing shares of the schedules among the samples that chose them.
     pub rough: Vec<RoughShare>,
-    /// Schedules that `[search]` describes, mirror images and all.
+    /// Number of schedules that `[search]` describes, including mirror images.
     pub possible: usize,
-    /// Schedules that keep the limits of the search; `None` where there are too many to look at all.
+    /// Number of schedules that keep the limits of the search; `None` if there are too many to examine all.
     pub within_limits: Option<usize>,
-    /// Schedules left out, by the limit that they break.
+    /// Numbers of schedules left out, by the limit that they exceed.
     pub refused: RefusedCounts,
-    /// Schedules screened: given first samples, or checked where none were asked for.
+    /// Number of screened schedules: they got first samples, or a check if no samples were requested.
     pub screened: usize,
-    /// Whether all that keep the limits of `[search]` were screened.
+    /// Whether all schedules that keep the limits of `[search]` were screened.
     pub complete: bool,
-    /// Whether samples were asked for.
+    /// Whether samples were requested.
     pub sampled: bool,
-    /// Schedules screened that have no full verdict, and of whose samples none failed.
+    /// Number of screened schedules that have no full verdict, and no failed sample.
     pub without_failure: usize,
-    /// The Pareto front of duration and failing share: schedules of which no shorter one screened fails less, the shortest first.
+    /// The Pareto front of duration and failing share, shortest first. No shorter screened schedule fails less than a schedule of
+    /// the front.
     pub front: Vec<FrontPoint>,
 }
 
-/// Failing share of the samples that chose a schedule.
+/// Failing share among the samples that chose a schedule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughShare {
     /// Number of samples.
     pub samples: usize,
-    /// Samples that fail, or are undecided.
+    /// Number of samples that fail or are undecided.
     pub failures: usize,
 }
 
-/// A schedule of which no shorter one fails less.
+/// A schedule of the front: no shorter schedule fails less.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrontPoint {
     /// The schedule.
     pub schedule: Schedule,
     /// Time from the first hole to the last [s].
     pub duration: f64,
-    /// Failing share of its samples.
+    /// Failing share among its samples.
     pub share: RoughShare,
 }
 
-/// The schedules with the least risk.
+/// The question: which schedules have the least risk?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {}
 
-/// Samples that a schedule takes on average.
+/// Average number of samples of a schedule.
 const RUNS_OF_SCHEDULE: usize = 40;
-/// Runs of a schedule that is judged in full: the nearest to the limit take the most samples, and duds. Measured on
+/// Runs of a schedule that is judged in full. The schedules nearest to the limit take the most samples, and duds. Measured on
 /// `amur-three-rows`.
 const RUNS_OF_JUDGED_SCHEDULE: usize = 3500;
 
@@ -124,8 +125,8 @@ impl Study for Question {
         search(context)
     }
 
-    /// Draws the first samples of the schedules of one shard, for the journal. A search that screens the best only, of more than
-    /// [`MOST_TRIED`], has no shards.
+    /// Draws the first samples of the schedules of one shard, for the journal. With more than [`MOST_TRIED`] candidates, a search
+    /// screens only the best, so it has no shards.
     fn answer_shard(&self, context: &Context<'_>, shard: Shard) -> ComputeResult<()> {
         let &Context { case, .. } = context;
         let space = ScheduleSpace::new(case)?;
@@ -142,7 +143,7 @@ impl Study for Question {
     }
 }
 
-/// Searches the schedules of a plan. Without a `sampling` only the shots as planned count.
+/// Searches the schedules of a plan. Without a `sampling` only the planned shots count.
 pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
     let &Context { case, control, sampling, .. } = context;
     let space = ScheduleSpace::new(case)?;
@@ -197,7 +198,7 @@ pub fn search(context: &Context<'_>) -> ComputeResult<Search> {
     Ok(Computed { value: found, partial: partial || out_of_time })
 }
 
-/// The context of the samples that choose.
+/// The context for the samples that choose.
 fn for_screening<'c>(context: &Context<'c>) -> Context<'c> {
     context.with_sampling(context.sampling.as_ref().map(Sampling::for_screening))
 }
@@ -213,7 +214,7 @@ impl RoughShare {
     }
 }
 
-/// The best of the sorted schedules that differ from one another, to be judged in full.
+/// The best of the sorted schedules that differ from one another. They are judged in full.
 fn choose_finalists<'r>(
     space: &ScheduleSpace<'_>,
     tried: &'r [TriedSchedule],
@@ -228,7 +229,7 @@ fn choose_finalists<'r>(
     chosen
 }
 
-/// The Pareto front: the schedules of which no shorter one fails less.
+/// The Pareto front: the schedules for which no shorter schedule fails less.
 fn pareto_front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<FrontPoint> {
     let sampled_enough = tried.iter().filter(|trial| trial.tally.samples >= SAMPLES_OF_FRONT);
     let point = |trial: &TriedSchedule| FrontPoint {
@@ -248,7 +249,8 @@ fn pareto_front(space: &ScheduleSpace<'_>, tried: &[TriedSchedule]) -> Vec<Front
     front
 }
 
-/// The delay option of a schedule: that of the plan which fires alike, or one whose name no option of the plan has.
+/// The delay option of a schedule. If an option of the plan fires alike, it has the name of that option, else a name that no option
+/// has.
 fn option_with_free_name(case: &Case, schedule: &Schedule) -> DelayOption {
     let new = schedule.named_option(&case.plan.blast_rows);
     if let Some(old) = case.plan.delays.iter().find(|old| old.fires_like(&new)) {
@@ -270,7 +272,7 @@ fn judge(context: &Context<'_>, schedules: &[Schedule]) -> Result<(Case, Compute
 }
 
 impl Search {
-    /// Puts the schedules in order, the best first, and keeps [`MOST_REPORTED`] of them: by verdict, then the safest first.
+    /// Sorts the schedules by verdict, then the safest first, and keeps [`MOST_REPORTED`] of them.
     fn rank(&mut self) {
         let mut ranked = safest_first(&self.case, &self.results, |n| self.rough[n].value());
         sort_by_key(&mut ranked, |&n| verdict_of(&self.results[n]));
@@ -281,11 +283,11 @@ impl Search {
         self.rough = ranked.iter().map(|&n| self.rough[n]).collect();
     }
 
-    /// The schedules that pass, as delay options, the best first.
+    /// The schedules that pass, as delay options, best first.
     pub fn passing(&self) -> impl Iterator<Item = &DelayOption> {
         let all = self.case.plan.delays.iter().zip(&self.results);
         let passes = |result: &Result<Judgement, NoResult>| match result {
-            // At a step that somebody fixed no sample is audited.
+            // At a step that the user fixed, no sample is audited.
             Ok(judged) if self.sampled => judged.is_full_pass(),
             result => verdict_of(result) == Verdict::Pass,
         };
@@ -294,8 +296,8 @@ impl Search {
 }
 
 impl Computed<Search> {
-    /// The verdict on the best schedule. A search that the time cut short is no pass; one that looked at all schedules, of which
-    /// none keeps its limits, is a fail.
+    /// The verdict on the best schedule. A search that ran out of time is no pass. If all schedules were examined and none keeps
+    /// the limits of the search, the verdict is a fail.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: search, partial } = self;
         let verdict = match search.results.first() {

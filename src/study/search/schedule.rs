@@ -25,7 +25,7 @@ pub struct Schedule {
     pub hole_timing: HoleTiming,
 }
 
-/// Gaps that differ by less than this share of the greater, or by less than [`NEAR`], make no other schedule.
+/// Two gaps count as one if they differ by less than this share of the greater gap, or by less than [`NEAR`].
 const NEAR_SHARE: f64 = 0.1;
 /// See [`NEAR_SHARE`].
 const NEAR: Time = Time::from_nanoseconds(2_500_000);
@@ -36,7 +36,7 @@ impl Schedule {
         Self { order: order.to_vec(), gaps: vec![interval; order.len() - 1], hole_timing }
     }
 
-    /// The schedule as a delay option with a telling name.
+    /// The schedule as a delay option with a descriptive name.
     pub fn named_option(&self, rows: &[BlastRow]) -> DelayOption {
         self.delay_option(self.name(rows))
     }
@@ -60,8 +60,8 @@ impl Schedule {
         DelayOption { name, timing, hole_timing }
     }
 
-    /// A telling name: `3-1-2 42+67 ms, holes 17 ms centre`; the order is left out where it is that of the plan. Gaps are joined by
-    /// a plus: `42-67 ms` could be read as anything between.
+    /// A descriptive name: `3-1-2 42+67 ms, holes 17 ms centre`. The order is left out if it is the order of the plan. A plus joins
+    /// the gaps, because `42-67 ms` could be read as a range.
     pub fn name(&self, rows: &[BlastRow]) -> String {
         let mut parts = Vec::new();
         if !self.order.is_sorted() {
@@ -98,7 +98,7 @@ impl Schedule {
     }
 }
 
-/// A schedule by the positions of its parts in the lists of [`ScheduleSpace`].
+/// A schedule, as indices into the lists of [`ScheduleSpace`].
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Candidate {
     order: Vec<usize>,
@@ -117,19 +117,19 @@ pub enum SearchLimit {
     Charge,
 }
 
-/// Numbers of schedules over a limit; each is counted once.
+/// Numbers of schedules that exceed a limit. Each schedule is counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RefusedCounts {
-    /// Longer than the longest duration.
+    /// Schedules that exceed the longest duration.
     pub too_long: usize,
-    /// More holes within 8 ms.
+    /// Schedules with too many holes within 8 ms.
     pub too_many_holes: usize,
-    /// More charge within 8 ms.
+    /// Schedules with too much charge within 8 ms.
     pub too_heavy: usize,
 }
 
 impl RefusedCounts {
-    /// Counts one more.
+    /// Counts one more schedule.
     pub fn count(&mut self, exceeded: SearchLimit) {
         *match exceeded {
             SearchLimit::Longest => &mut self.too_long,
@@ -139,11 +139,11 @@ impl RefusedCounts {
     }
 }
 
-/// What schedules are made of.
+/// The parts of which schedules are made.
 pub struct ScheduleSpace<'c> {
     case: &'c Case,
     intervals: Vec<Time>,
-    /// Number of gaps chosen by themselves.
+    /// Number of gaps that are chosen separately.
     free_gaps: usize,
     /// Rank of each blast row among all, counted across the rows (`n_blast_rows`).
     rank_across: Vec<usize>,
@@ -165,7 +165,7 @@ impl<'c> ScheduleSpace<'c> {
         Ok(Self { case, intervals, free_gaps, rank_across: ranks_across(case) })
     }
 
-    /// Number of schedules, before limits and mirror images; `usize::MAX` where there are more.
+    /// Number of schedules, before limits and mirror images; `usize::MAX` if there are more.
     pub fn count(&self) -> usize {
         let rows = self.rank_across.len();
         let orders = match self.case.plan.search.orders {
@@ -177,7 +177,7 @@ impl<'c> ScheduleSpace<'c> {
         orders.saturating_mul(gaps).saturating_mul(self.case.plan.search.holes.len())
     }
 
-    /// All of them.
+    /// All schedules of the space.
     pub fn all(&self) -> Vec<Candidate> {
         let rows = self.rank_across.len();
         let orders: Vec<Vec<usize>> = match self.case.plan.search.orders {
@@ -195,12 +195,12 @@ impl<'c> ScheduleSpace<'c> {
             .collect()
     }
 
-    /// The orders in which every row but the first fires beside one that has fired, sorted. They grow from their first row to one
-    /// side or the other: of n rows there are 2ⁿ⁻¹, far fewer than all n! orders.
+    /// The orders in which every row but the first fires beside a row that has fired, sorted. The fired rows grow from the first
+    /// row to one side or the other. So n rows have 2ⁿ⁻¹ such orders, far fewer than all n! orders.
     fn adjacent_orders(&self) -> Vec<Vec<usize>> {
         let rows = self.rank_across.len();
         let by_rank = sorted_by_key(0..rows, |&row| self.rank_across[row]);
-        // With each order, the ranks between which its rows lie.
+        // Each order, with the ranks between which its rows lie.
         let mut orders: Vec<(usize, usize, Vec<usize>)> =
             (0..rows).map(|rank| (rank, rank + 1, vec![by_rank[rank]])).collect();
         for _ in 1..rows {
@@ -215,7 +215,7 @@ impl<'c> ScheduleSpace<'c> {
         sorted(orders.into_iter().map(|(.., order)| order))
     }
 
-    /// Any one of them.
+    /// A random schedule of the space.
     pub fn random(&self, random: &mut ChaCha8Rng) -> Candidate {
         let rows = self.rank_across.len();
         let mut order: Vec<usize> = (0..rows).collect();
@@ -239,13 +239,13 @@ impl<'c> ScheduleSpace<'c> {
                 }
             }
         }
-        // Of few short gaps as often as of long ones: a longest duration may leave no others.
+        // The greatest gap is drawn first, so short gaps alone come often, too: a longest duration may allow no others.
         let longest = random.random_range(0..self.intervals.len().max(1));
         let gaps = (0..self.free_gaps).map(|_| random.random_range(0..=longest)).collect();
         Candidate { order, gaps, holes: random.random_range(0..self.case.plan.search.holes.len()) }
     }
 
-    /// Those that differ in one gap, by an exchange of two successive rows, or in the holes.
+    /// The neighbors of a candidate: they differ in one gap, by a swap of two successive rows, or in the holes.
     pub fn neighbours(&self, candidate: &Candidate) -> Vec<Candidate> {
         let mut all = Vec::new();
         for gap in 0..candidate.gaps.len() {
@@ -282,7 +282,7 @@ impl<'c> ScheduleSpace<'c> {
         Schedule {
             order: candidate.order.clone(),
             gaps: (0..candidate.order.len() - 1).map(gap).collect(),
-            // The safe side: where one option of the plan is fired through, a schedule is.
+            // The safe side: if one option of the plan is fired through, so is a schedule.
             hole_timing: HoleTiming {
                 fired_through: self.case.plan.delays.iter().any(|delay| delay.hole_timing.fired_through),
                 ..self.case.plan.search.holes[candidate.holes]
@@ -296,7 +296,7 @@ impl<'c> ScheduleSpace<'c> {
         if spec.longest.is_some_and(|longest| shot.duration() > longest.seconds() + 1e-9) {
             return Some(SearchLimit::Longest);
         }
-        // The stricter of both.
+        // The stricter of both limits counts.
         let most_holes = spec.most_holes_in_8_ms.into_iter().chain(limits.holes_in_8_ms).min();
         let WithinEightMs { holes, charge } = WithinEightMs::of(self.case, shot);
         if most_holes.is_some_and(|most| holes > most) {
@@ -315,7 +315,7 @@ impl<'c> ScheduleSpace<'c> {
     }
 }
 
-/// Steps in the list of intervals between neighbours of a search.
+/// Distances in the list of intervals between neighbors of a search.
 const STRIDES: [isize; 6] = [-9, -3, -1, 1, 3, 9];
 
 /// Rank of each blast row among all (`n_blast_rows`), counted along the axis on which they lie farther apart.
@@ -341,7 +341,7 @@ fn ranks_across(case: &Case) -> Vec<usize> {
     ranks
 }
 
-/// Shots that are known, each as one with its mirror images, by the causes of its firings.
+/// Known shots, by the causes of their firings. A shot and its mirror images count as one.
 #[derive(Default)]
 pub struct KnownShots(HashSet<Vec<Cause>>);
 
@@ -378,7 +378,7 @@ mod tests {
         Case::parse(source).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     }
 
-    /// Those that grow are those among all orders that fire beside one another; of sixteen rows there are 32,768.
+    /// The grown orders are exactly the orders in which each row fires beside a fired row. Sixteen rows have 32,768 of them.
     #[test]
     fn adjacent_orders_grow_from_their_first_row() {
         for count in 1..=6 {

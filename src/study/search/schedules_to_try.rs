@@ -1,4 +1,4 @@
-//! The schedules that are tried: all that keep the limits of the search, or those that a search comes upon.
+//! The schedules to try: all that keep the limits of the search, or those that the search finds.
 
 use std::collections::HashSet;
 
@@ -12,28 +12,28 @@ use super::successive_halving::{TriedSchedule, run_samples};
 use crate::sorting::sorted_by;
 use crate::study::{Case, ComputeResult, Computed, Context};
 
-/// Greatest number of schedules that are all tried.
+/// Greatest number of allowed schedules that are all tried.
 pub const MOST_TRIED: usize = 4000;
-/// Greatest number of schedules of which all are looked at, whether they keep the limits of the search.
+/// Greatest number of schedules that are all examined for the limits of the search.
 const MOST_LISTED: usize = 500_000;
-/// Schedules that a search begins with, and most random draws for them.
+/// Number of random schedules that a search begins with, and greatest number of draws for them.
 const RANDOM_STARTS: usize = 2000;
 const MOST_DRAWS: usize = 50 * RANDOM_STARTS;
-/// Of the best schedules of a search, so many are looked around at a time.
+/// Number of best schedules whose neighbors are tried at a time.
 const CLIMBERS: usize = 24;
 /// First samples of each schedule of a search.
 pub const FIRST_OF_SEARCH: usize = 8;
 
 /// The schedules that keep the limits of the search.
 pub struct AllowedSchedules {
-    /// In order; `None` where there are too many to look at all.
+    /// The schedules in order; `None` if there are too many to examine all.
     pub allowed: Option<Vec<Candidate>>,
-    /// Schedules left out, by the limit that they break.
+    /// Numbers of schedules left out, by the limit that they exceed.
     pub refused: RefusedCounts,
 }
 
 impl AllowedSchedules {
-    /// Looks at all schedules of a plan, unless there are too many.
+    /// Examines all schedules of a plan, unless there are too many.
     pub fn new(case: &Case, space: &ScheduleSpace<'_>) -> Self {
         let mut refused = RefusedCounts::default();
         let listed = (space.count() <= MOST_LISTED).then(|| space.all());
@@ -49,18 +49,18 @@ impl AllowedSchedules {
         Self { allowed, refused }
     }
 
-    /// Whether they are so few that all are tried.
+    /// Whether the schedules are so few that all are tried.
     pub fn are_all_tried(&self) -> bool {
         self.allowed.as_ref().is_some_and(|allowed| allowed.len() <= MOST_TRIED)
     }
 }
 
-/// The schedules that are screened.
+/// The schedules to screen.
 pub struct SchedulesToTry<'c> {
     case: &'c Case,
     space: &'c ScheduleSpace<'c>,
     known: KnownShots,
-    /// In the order in which they were added.
+    /// The schedules, in the order in which they were added.
     pub tried: Vec<TriedSchedule>,
 }
 
@@ -70,7 +70,7 @@ impl<'c> SchedulesToTry<'c> {
         Self { case, space, known: KnownShots::default(), tried: Vec::new() }
     }
 
-    /// Adds the candidates that are allowed, and not known yet.
+    /// Adds the candidates that are allowed and not known yet.
     pub fn add(&mut self, candidates: impl IntoIterator<Item = Candidate>) {
         for candidate in candidates {
             let shot = self.space.schedule(&candidate).shot(self.case);
@@ -80,10 +80,10 @@ impl<'c> SchedulesToTry<'c> {
         }
     }
 
-    /// Searches where not all schedules can be screened. `allowed` are those that keep the limits, where all were looked at.
+    /// Searches if not all schedules can be screened. `allowed` are the schedules that keep the limits, if all were examined.
     pub fn explore(&mut self, context: &Context<'_>, allowed: Option<&[Candidate]>) -> ComputeResult<()> {
         let mut random = ChaCha8Rng::seed_from_u64(context.sampling.map_or(0, |sampling| sampling.seed));
-        // Where the limits of the search leave few, more are drawn.
+        // If the limits of the search allow few schedules, more are drawn.
         for _ in 0..MOST_DRAWS {
             self.add([match allowed {
                 Some(allowed) => allowed[random.random_range(0..allowed.len())].clone(),

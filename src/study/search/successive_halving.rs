@@ -1,5 +1,5 @@
-//! Which of many schedules fail least: few samples of all, and ever more of ever fewer (successive halving: Karnin, Koren and
-//! Somekh 2013).
+//! Finds the schedules that fail least: few samples of all schedules, then ever more samples of ever fewer schedules (successive
+//! halving: Karnin, Koren and Somekh 2013).
 
 use super::schedule::Candidate;
 use crate::scene::Shot;
@@ -11,14 +11,14 @@ use crate::study::work::batch::run_batch;
 use crate::study::{ComputeResult, Computed, Context, Fingerprint, NoResult};
 use crate::verdict::Verdict;
 
-/// Schedules that stay to the end, at least.
+/// Least number of schedules that stay to the end.
 const LEAST_LEFT: usize = 24;
 /// Samples of each schedule that stays to the end.
 const MOST_SAMPLES: usize = 256;
-/// Samples that the guess from height, force and drift counts for, beside the samples that failed.
+/// Weight of the guess from height, force and drift beside the failures [samples].
 const WEIGHT_OF_GUESS: f64 = 16.0;
 
-/// Share of what is left that a round takes: the next ones have half the schedules and twice the samples.
+/// Share of the remaining progress that a round takes. The next round has half the schedules and twice the samples.
 const SHARE_OF_ROUND: f64 = 0.3;
 
 /// A schedule with its samples so far.
@@ -26,9 +26,9 @@ const SHARE_OF_ROUND: f64 = 0.3;
 pub struct TriedSchedule {
     /// The schedule.
     pub candidate: Candidate,
-    /// The shot as planned.
+    /// The planned shot.
     pub shot: Shot,
-    /// What its samples came to.
+    /// Result of its samples.
     pub tally: Tally,
 }
 
@@ -39,14 +39,14 @@ impl TriedSchedule {
     }
 }
 
-/// What the samples of a schedule came to.
+/// Result of the samples of a schedule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Number of samples.
     pub samples: usize,
-    /// Samples that fail, or are undecided.
+    /// Number of samples that fail or are undecided.
     pub failures: usize,
-    /// Sum and sum of squares of the utilizations that are known, and their number.
+    /// Sum, sum of squares, and number of the known utilizations.
     utilization: [f64; 3],
 }
 
@@ -62,8 +62,8 @@ impl Tally {
         }
     }
 
-    /// Guess of the failing share. While few samples or none fail, the utilizations tell more than the failures: of a normal
-    /// distribution of their mean and deviation a share lies above 1, which counts like [`WEIGHT_OF_GUESS`] samples.
+    /// Guess of the failing share. While few samples fail, or none, the utilizations say more than the failures. A normal
+    /// distribution with their mean and deviation has a share above 1. That share counts like [`WEIGHT_OF_GUESS`] samples.
     pub fn estimated_failing_share(&self) -> f64 {
         let [sum, squares, count] = self.utilization;
         if count == 0.0 {
@@ -72,7 +72,7 @@ impl Tally {
         let mean = sum / count;
         let deviation = (squares / count - mean * mean).max(0.0).sqrt().max(1e-9 * mean);
         let above = 0.5 * libm::erfc((1.0 - mean) / (deviation * std::f64::consts::SQRT_2));
-        // A single run as planned has no deviation: the shots are in order of their utilization.
+        // A single run of the planned shot has no deviation. Then the schedules are sorted by their utilization.
         if self.samples < 2 {
             return mean;
         }
@@ -80,9 +80,9 @@ impl Tally {
     }
 }
 
-/// Runs samples of every schedule until it has `samples`; without a sampling the shot as planned.
+/// Runs samples of every schedule until it has `samples` of them. Without a sampling it runs the planned shot.
 pub fn run_samples(context: &Context<'_>, tried: &mut [TriedSchedule], samples: usize) -> ComputeResult<()> {
-    // A shot as planned is checked once.
+    // A planned shot is checked once.
     let samples = if context.sampling.is_some() { samples } else { 1 };
     let jobs: Vec<&TriedSchedule> = tried.iter().filter(|trial| trial.tally.samples < samples).collect();
     let drawn = run_batch(&jobs, context.control, |trial| {
@@ -101,7 +101,7 @@ pub fn run_samples(context: &Context<'_>, tried: &mut [TriedSchedule], samples: 
     Ok(Computed { value: (), partial })
 }
 
-/// Verdict and utilization of the next samples of a schedule; without samples, of the shot as planned.
+/// Verdict and utilization of the next samples of a schedule; without a sampling, of the planned shot.
 fn runs(
     context: &Context<'_>,
     schedule: &TriedSchedule,
@@ -127,8 +127,7 @@ fn runs(
     )
 }
 
-/// Sorts the schedules, the best first, after twice as many samples of each better half as before, and so on; `first` samples
-/// of each are drawn.
+/// Sorts the schedules, best first. It draws `first` samples of each, then twice as many samples of each better half, and so on.
 pub fn halve(context: &Context<'_>, tried: &mut [TriedSchedule], first: usize) -> ComputeResult<()> {
     let (mut samples, mut left) = (first, tried.len());
     loop {
@@ -149,7 +148,7 @@ pub fn halve(context: &Context<'_>, tried: &mut [TriedSchedule], first: usize) -
 mod tests {
     use super::*;
 
-    /// Of utilizations 0.8 ± 0.1 a share of 2.3 % lies above 1, though none of 16 does.
+    /// With utilizations of 0.8 ± 0.1, a share of 2.3 % lies above 1, though none of 16 samples does.
     #[test]
     fn utilizations_tell_before_failures_do() {
         let score = |low: f64, high: f64, failures: usize| {

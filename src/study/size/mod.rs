@@ -1,16 +1,15 @@
-//! The lightest rope, tires and border with which a shelter holds.
+//! Finds the lightest rope, tires and border with which a shelter holds.
 //!
-//! Each combination of rope, tire mass and border rows is a shelter of its own. A stiffer rope pulls harder; a heavier tire
-//! flies lower and pulls longer; so one combination says nothing about another, with one exception: ropes of equal
-//! stiffness move the shelter alike, and the stronger rope holds wherever the weaker one holds. The strongest rope of each
-//! stiffness is tried first. Where it fails, the other ropes of that stiffness are not tried.
+//! Each combination of rope, tire mass and border rows is a shelter of its own. A stiffer rope pulls harder. A heavier tire flies
+//! lower and pulls longer. So one combination says nothing about another, with one exception: ropes of equal stiffness and mass
+//! move the shelter alike. Then the stronger rope holds wherever the weaker rope holds. The strongest rope of each stiffness is
+//! tried first. If it fails, the other ropes of that stiffness are not tried.
 //!
 //! Nobody knows how fast a tire of another mass leaves ([mass law](crate::plan::mass_law)). A combination with such tires must hold
-//! at both ends of `launch_mass_exponent`; the plan that is written takes the worse end.
+//! at both ends of `launch_mass_exponent`. The written plan takes the worse end.
 //!
-//! A combination that holds as planned is a choice only if surely fewer shots than accepted fail of those that `[uncertainty]`
-//! describes, and fresh draws confirm it. From the lightest on, every combination with more margin than the choices before is
-//! sampled so.
+//! A combination whose planned shots hold is a choice only if surely fewer of its sampled shots fail than accepted, and fresh draws
+//! confirm it. From the lightest on, every combination with a smaller utilization than the choices before is sampled in this way.
 
 mod size_candidate;
 
@@ -37,8 +36,8 @@ use crate::verdict::Verdict;
 pub enum Demand {
     /// Delay options of the plan, by their indices.
     Options(Vec<usize>),
-    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals, the holes of each row
-    /// fired so.
+    /// Every order of the blast rows (at most [`MOST_ROWS`](super::orders::MOST_ROWS)) at each of these intervals. The holes of
+    /// each row fire by this timing.
     AnyOrder(Vec<Time>, HoleTiming),
 }
 
@@ -55,12 +54,12 @@ pub struct Combination {
     pub tires: usize,
     /// Mass of all tires and cables [kg].
     pub total_mass: f64,
-    /// Result of its trial, or why there was no trial.
+    /// Result of its trial, or why there was none.
     pub trial: Result<Trial, Untried>,
 }
 
 impl Combination {
-    /// The text of the plan of `case` with this combination, or why its text has no place for it.
+    /// The text of the plan of `case` with this combination, or why that text has no place for it.
     pub fn written(&self, case: &Case) -> Result<String, String> {
         let Self { rope, tire_mass, border_rows, .. } = self;
         edit::write_sizes(&case.source.text, &case.plan, &rope.name, *tire_mass, *border_rows)
@@ -73,7 +72,7 @@ impl Combination {
 pub enum Untried {
     /// A stronger rope of the same stiffness does not hold.
     StrongerRopeDoesNotHold,
-    /// The time did not suffice.
+    /// The time ran out.
     OutOfTime,
     /// A run failed.
     RunFailed,
@@ -82,51 +81,52 @@ pub enum Untried {
 /// Result of trying a combination.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
-    /// Whether every shot passes as planned.
+    /// Whether every planned shot passes.
     pub holds: bool,
-    /// The worst verdict, and the greatest value of each quantity, of all shots checked. Where the combination does not hold, shots that were not checked may be worse.
+    /// The worst verdict, and the greatest value of each quantity, of all checked shots. If the combination does not hold, shots
+    /// that were not checked may be worse.
     pub worst: ShotSummary,
     /// Utilization: the greatest value over its limit.
     pub utilization: f64,
     /// Number of shots checked.
     pub shots: usize,
-    /// What the samples tell; `None` where none were drawn.
+    /// Samples of the worst shot; `None` if none were drawn.
     pub risk: Option<WorstShotRisk>,
-    /// What the verdict on its shots rests on; `None` where it was not looked at further.
+    /// The evidence for the verdict on its shots; `None` if the combination was not examined further.
     pub grounds: Option<Grounds>,
-    /// What ends its pass, where it is the lightest choice and its pass is a thin one.
+    /// What ends its pass, if it is the lightest choice and its pass is thin.
     pub thin: Option<ThinPass>,
 }
 
-/// Samples of the worst shot of a combination: that with the worst verdict, then that of which the greatest share fails, then that of
-/// which the least is sure.
+/// Samples of the worst shot of a combination: the worst verdict counts first, then the greatest failing share, then the greatest
+/// upper bound.
 #[derive(Clone, Copy, Debug)]
 pub struct WorstShotRisk {
     /// The verdict of the samples.
     pub verdict: Verdict,
     /// Number of samples.
     pub samples: usize,
-    /// Number of those that failed.
+    /// Number of samples that failed.
     pub failures: usize,
     /// Upper bound of the failure probability.
     pub failure_upper_bound: f64,
 }
 
 impl Trial {
-    /// The verdict on its shots, of all that was asked for; `None` where it was not looked at further.
+    /// The verdict on its shots, from all requested evidence; `None` if the combination was not examined further.
     pub fn verdict(&self) -> Option<Verdict> {
         self.grounds.map(|grounds| grounds.verdict())
     }
 
-    /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every lighter choice;
-    /// others are not looked at further.
+    /// Whether it is a choice: it holds, the risk of its shots passes, and its utilization is smaller than that of every lighter
+    /// choice. Other combinations are not examined further.
     pub fn is_acceptable(&self) -> bool {
         self.verdict() == Some(Verdict::Pass)
     }
 }
 
 impl WorstShotRisk {
-    /// Of no shot.
+    /// The samples of no shot.
     const NONE: Self = Self { verdict: Verdict::Pass, samples: 0, failures: 0, failure_upper_bound: 0.0 };
 
     fn compare(&self, other: &Self) -> Ordering {
@@ -140,15 +140,15 @@ impl WorstShotRisk {
 /// Result of sizing.
 #[derive(Clone, Debug)]
 pub struct Sizing {
-    /// All combinations, the lightest first.
+    /// All combinations, lightest first.
     pub combinations: Vec<Combination>,
-    /// Whether the launch velocity is an estimate that nobody observed: no combination is a choice then.
+    /// Whether the launch velocity is an estimate that nobody observed. Then no combination is a choice.
     pub launch_is_estimated: bool,
 }
 
 impl Sizing {
-    /// The verdict: pass where the lightest choice is known, fail where no combination is one. While combinations are untried for
-    /// want of time or of a run, a lighter one may be a choice.
+    /// The verdict: pass if the lightest choice is known, fail if no combination is a choice. It is open while combinations are
+    /// untried, because the time ran out or a run failed: a lighter combination may be a choice.
     pub fn verdict(&self) -> Verdict {
         let holds = |combination: &Combination| combination.trial.is_ok_and(|trial| trial.holds);
         let would_be_one = self.launch_is_estimated && self.combinations.iter().any(holds);
@@ -162,17 +162,17 @@ impl Sizing {
         }
     }
 
-    /// Whether combinations are untried that may be a choice.
+    /// Whether untried combinations may be a choice.
     pub fn is_incomplete(&self) -> bool {
         self.count_untried(Untried::OutOfTime) > 0 || self.count_untried(Untried::RunFailed) > 0
     }
 
-    /// The lightest choice; of equally light ones, that of the weakest rope.
+    /// The lightest choice; of equally light choices the one with the weakest rope.
     pub fn lightest_choice(&self) -> Option<&Combination> {
         self.choices().next()
     }
 
-    /// All choices, the lightest first.
+    /// All choices, lightest first.
     pub fn choices(&self) -> impl Iterator<Item = &Combination> {
         self.combinations.iter().filter(|c| c.trial.is_ok_and(|trial| trial.is_acceptable()))
     }
@@ -187,7 +187,7 @@ impl Sizing {
         self.combinations.iter().filter(|c| c.trial.is_ok()).count()
     }
 
-    /// Number of combinations that hold as planned, and whose risk has this verdict.
+    /// Number of combinations whose planned shots hold, and whose risk has this verdict.
     pub fn count_with_risk(&self, verdict: Verdict) -> usize {
         let has = |c: &&Combination| {
             c.trial.is_ok_and(|trial| trial.risk.is_some() && trial.verdict() == Some(verdict))
@@ -195,19 +195,19 @@ impl Sizing {
         self.combinations.iter().filter(has).count()
     }
 
-    /// Whether a combination stays undecided as planned.
+    /// Whether the planned shots of a combination stay undecided.
     pub fn is_open_as_planned(&self) -> bool {
         let is_open = |c: &Combination| c.trial.is_ok_and(|trial| trial.worst.verdict == Verdict::Undecided);
         self.combinations.iter().any(is_open)
     }
 
-    /// Number of combinations that were not tried for reason `why`.
+    /// Number of combinations that were not tried for the reason `why`.
     pub fn count_untried(&self, why: Untried) -> usize {
         self.combinations.iter().filter(|c| c.trial.is_err_and(|untried| untried == why)).count()
     }
 }
 
-/// What is asked of every combination.
+/// The task for every combination.
 #[derive(Clone, Copy)]
 struct SizingTask<'q> {
     plan: &'q Plan,
@@ -215,16 +215,16 @@ struct SizingTask<'q> {
     context: &'q Context<'q>,
 }
 
-/// Share of sizing with samples that the shots as planned take.
+/// Share of sizing with samples that the planned shots take.
 const SHARE_AS_PLANNED: f64 = 0.3;
 
-/// The part of the work that one of `left` like ones takes; one less is left.
+/// The part of the work for one of `left` equal pieces. It reduces `left` by one.
 fn next_part<'q>(task: &SizingTask<'q>, left: &mut usize) -> Part<'q> {
     *left = left.saturating_sub(1);
     task.context.control.part(1.0 / (*left + 1) as f64)
 }
 
-/// The lightest shelter that holds.
+/// The question: which is the lightest shelter that holds?
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// What may be chosen.
@@ -233,8 +233,8 @@ pub struct Question {
     pub demand: Demand,
 }
 
-/// What each shot of a combination takes, in runs of a sample, and combinations of which samples are usually drawn. Measured on the plans
-/// of examples.
+/// Runs that each shot of a combination takes, in runs of a sample; and usual number of combinations with samples. Measured on the
+/// plans of examples.
 const RUNS_OF_COMBINATION: usize = 30;
 const COMBINATIONS_SAMPLED: usize = 6;
 
@@ -266,8 +266,8 @@ impl Study for Question {
     }
 }
 
-/// Tries the combinations that `choices` allow, of ropes that the termination of the plan fits, until the time is up. Without samples
-/// only the shots as planned count.
+/// Tries the combinations that `choices` allow, with ropes that the termination of the plan fits, until the time is up. Without
+/// samples only the planned shots count.
 pub fn size(context: &Context<'_>, choices: &SizeSpec, demand: &Demand) -> ComputeResult<Sizing> {
     let &Context { case, sampling, control, .. } = context;
     let plan = &Plan { size: choices.clone(), ..case.plan.clone() };
@@ -290,14 +290,14 @@ pub fn size(context: &Context<'_>, choices: &SizeSpec, demand: &Demand) -> Compu
     Ok(Computed { value: sizing, partial })
 }
 
-/// Tries every combination with its shots as planned.
+/// Tries every combination with its planned shots.
 fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, NoResult> {
     let plan = task.plan;
     let own_mass = [plan.tire.mass_kg];
     let masses = if plan.size.tire_mass_kg.is_empty() { &own_mass[..] } else { &plan.size.tire_mass_kg };
     let most_border = if matches!(plan.layout, Layout::List { .. }) { 0 } else { plan.size.most_border_rows };
     let mut tried = Vec::new();
-    // Index of the shot at which the last combination failed: the next combination likely fails at it, too.
+    // Index of the shot at which the last combination failed. The next combination likely fails at it, too.
     let mut last_failed = 0;
     let groups = ropes_by_stiffness(plan);
     let mut left = groups.len() * masses.len() * (most_border + 1);
@@ -336,7 +336,7 @@ fn try_all(task: &SizingTask<'_>) -> Result<Vec<(Combination, ShotsToSample)>, N
     Ok(tried)
 }
 
-/// Ropes that the plan allows and its termination fits: those of equal stiffness and mass together, the strongest first.
+/// Ropes that the plan allows and its termination fits. Ropes of equal stiffness and mass form a group, strongest first.
 fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     let own_rope = plan.cable.rope.as_ref().and_then(|name| catalogue().find(name));
     let wanted = plan.size.family.as_ref().or(own_rope.map(|rope| &rope.family));
@@ -351,8 +351,8 @@ fn ropes_by_stiffness(plan: &Plan) -> Vec<Vec<&'static Rope>> {
     groups.into_iter().map(|(_, ropes)| sorted_by(ropes, strongest_first)).collect()
 }
 
-/// What the shots of a combination tell that hold as planned, the hardest ones first: by samples, where these pass with one dud, then by
-/// fresh draws. `None` where the time was up.
+/// Judges the shots of a combination whose planned shots hold, the hardest first: by samples, if these pass with one dud, then by
+/// fresh draws. `None` if the time was up.
 fn judge(
     candidate: &SizeCandidate<'_>,
     shots: &ShotsToSample,
@@ -384,7 +384,8 @@ fn judge(
     Ok(Some((worst, grounds)))
 }
 
-/// Marks the choices among combinations that are sorted by mass: samples those that could be one, and confirms those that pass.
+/// Marks the choices among combinations that are sorted by mass. It samples the combinations that could be a choice, and confirms
+/// those that pass.
 fn choose(task: &SizingTask<'_>, tried: &mut [(Combination, ShotsToSample)]) -> Result<(), NoResult> {
     let (mut least, mut confirmations) = (f64::INFINITY, 0);
     let launch_is_estimated = task.plan.uncertainty.launch_is_estimated();

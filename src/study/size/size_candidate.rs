@@ -1,4 +1,4 @@
-//! One combination of rope, tire mass and border rows: its trial with the shots as planned, and its samples.
+//! One combination of rope, tire mass and border rows: its trial with the planned shots, and its samples.
 
 use std::ops::ControlFlow;
 
@@ -25,13 +25,13 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{Case, Computed, NoResult, ShotSummary};
 use crate::verdict::{PerQuantity, Verdict};
 
-/// Number of shots, the hardest ones, that are judged before all others: most sizes that do not hold fail at one of them.
+/// Number of shots, the hardest, that are judged before all others. Most combinations that do not hold fail at one of them.
 const HARDEST: usize = 8;
-/// Number of shots checked together before a failure ends the trial. A fixed number: the shots checked do not depend on the
+/// Number of shots checked together before a failure ends the trial. The number is fixed, so the checked shots do not depend on the
 /// number of threads.
 const AT_ONCE: usize = 32;
 
-/// The shots that a combination is to hold, hardest first: the index of each and what it is as planned.
+/// The shots that a combination must hold, hardest first: the index of each, and the summary of its planned shot.
 pub(super) type ShotsToSample = Vec<(usize, ShotSummary)>;
 
 /// A combination made ready to run.
@@ -40,13 +40,14 @@ pub(super) struct SizeCandidate<'q> {
     rope: &'static Rope,
     tire_mass: f64,
     border_rows: usize,
-    /// The plan with these sizes, its launches at the worse end of the [mass law](crate::plan::mass_law).
+    /// The plan with these sizes. Its launches are at the worse end of the [mass law](crate::plan::mass_law).
     case: Case,
-    /// Exponents of the mass law at which the shelter must hold, the worse end first; one where no launch depends on it.
+    /// Exponents of the mass law at which the shelter must hold, worse end first; a single one if no launch depends on it.
     exponents: Vec<f64>,
-    /// The plan with these sizes, in whose samples the exponent is known (`n_exponents`); empty where there is one.
+    /// The plan with these sizes for each exponent (`n_exponents`). In its samples the exponent is known. Empty if there is one
+    /// exponent.
     with_exponent: Vec<Case>,
-    /// The shots demanded, once for each exponent (`n_exponents` × `n_demanded`).
+    /// The demanded shots, once for each exponent (`n_exponents` × `n_demanded`).
     shots: Vec<Shot>,
 }
 
@@ -93,8 +94,8 @@ impl<'q> SizeCandidate<'q> {
         }
     }
 
-    /// Checks the shots as planned in chunks of [`AT_ONCE`], beginning with index `last_failed`. Stops after the first chunk with a
-    /// shot that does not pass, and puts that shot's index into `last_failed`. `None` where the time was up.
+    /// Checks the planned shots in chunks of [`AT_ONCE`], beginning with index `last_failed`. Stops after the first chunk with a
+    /// shot that does not pass, and puts the index of that shot into `last_failed`. `None` if the time was up.
     pub(super) fn try_as_planned(
         &self,
         last_failed: &mut usize,
@@ -122,14 +123,14 @@ impl<'q> SizeCandidate<'q> {
             }
         }
         let hardest = nearest_each_limit_in_turn(&case.limits, &checked);
-        // Who chooses shackles by the force must find the greatest of all shots.
+        // A user who chooses shackles by the force needs the greatest force of all shots.
         let greatest = |quantity| {
             let of_shots = checked.iter().map(|checked| *checked.values.get(quantity));
             of_shots.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
         };
         let covers = checked.iter().map(|checked| checked.cover);
         let worst = ShotSummary {
-            // What keeps a combination from holding need not be the shot that uses most of a limit.
+            // The shot that keeps a combination from holding need not be the shot with the greatest utilization.
             verdict: Verdict::worst(checked.iter().map(|checked| checked.verdict)),
             values: PerQuantity::from_fn(greatest),
             cover: covers.max_by_key(|cover| cover.uncovered).unwrap_or(Cover::NONE),
@@ -147,7 +148,7 @@ impl<'q> SizeCandidate<'q> {
         Ok(Some((trial, to_sample)))
     }
 
-    /// What ends the pass of a shot, where one of them is a thin one; the hardest are tried first.
+    /// What ends the pass of a shot, if one of them has a thin pass. The hardest shots are tried first.
     pub(super) fn thin(&self, shots: &ShotsToSample) -> Result<Option<ThinPass>, NoResult> {
         let context = self.task.context.with_case(&self.case);
         for (n, _) in self.hardest_and_rest(shots).into_iter().flatten() {
@@ -159,7 +160,7 @@ impl<'q> SizeCandidate<'q> {
         Ok(None)
     }
 
-    /// The shots to sample in two parts: the hardest of each exponent, and the rest.
+    /// The shots to sample in two parts: the hardest shots of each exponent, then the rest.
     pub(super) fn hardest_and_rest(&self, shots: &ShotsToSample) -> [ShotsToSample; 2] {
         let mut left = vec![HARDEST; self.exponents.len()];
         let is_hardest = |&(n, _): &(usize, ShotSummary)| {
@@ -172,14 +173,14 @@ impl<'q> SizeCandidate<'q> {
         [hardest, rest]
     }
 
-    /// Which of the exponents a shot belongs to.
+    /// Index of the exponent that a shot belongs to.
     fn exponent_of(&self, shot: usize) -> usize {
         shot * self.exponents.len() / self.shots.len()
     }
 
-    /// Samples shots until each risk is sure, or one does not pass; `None` where the time was up. Where the mass of the tires changes,
-    /// the shots of the worse end are sampled as the plan with these sizes describes them, then the shots of each end with its
-    /// exponent.
+    /// Samples shots until each risk is sure, or one shot does not pass; `None` if the time was up. If the mass of the tires
+    /// changes, the shots of the worse end are sampled first, by the plan with these sizes. Then the shots of each end are sampled
+    /// by the plan with its exponent.
     pub(super) fn sample(
         &self,
         shots: &ShotsToSample,
@@ -211,7 +212,7 @@ impl<'q> SizeCandidate<'q> {
         Ok(Some(worst))
     }
 
-    /// Whether every shot withstands any one dud, where the plan makes that a part of the verdict; `None` where the time was up.
+    /// Whether every shot withstands any one dud, if the plan makes that a part of the verdict; `None` if the time was up.
     pub(super) fn withstands_one_dud(
         &self,
         shots: &ShotsToSample,
@@ -229,7 +230,7 @@ impl<'q> SizeCandidate<'q> {
         Ok(Some(Evidence::Known(Verdict::Pass)))
     }
 
-    /// Whether fresh draws confirm every shot; `None` where the time was up.
+    /// Whether fresh draws confirm every shot; `None` if the time was up.
     pub(super) fn confirm(
         &self,
         shots: &ShotsToSample,
@@ -243,13 +244,13 @@ impl<'q> SizeCandidate<'q> {
         Ok(drawn.map(verdicts))
     }
 
-    /// The plan with these sizes, and where the mass of the tires changes, the plan at each end of the mass law, each with the index of
-    /// its exponent.
+    /// The plan with these sizes. If the mass of the tires changes, also the plan at each end of the mass law. Each plan comes with
+    /// the index of its exponent.
     fn cases(&self) -> impl Iterator<Item = (usize, &Case)> {
         [(0, &self.case)].into_iter().chain(self.with_exponent.iter().enumerate())
     }
 
-    /// The shots of one exponent, under a plan.
+    /// The shots of one exponent, to be sampled by the plan of `case`.
     fn targets<'s>(
         &'s self,
         exponent: usize,
@@ -266,7 +267,7 @@ impl<'q> SizeCandidate<'q> {
     }
 }
 
-/// The case, in whose samples the exponent of the mass law is known.
+/// The case with a known exponent of the mass law in its samples.
 fn with_exponent(case: &Case, exponent: f64) -> Case {
     let mut plan = case.plan.clone();
     plan.uncertainty.launch_mass_exponent = [exponent; 2];
@@ -291,8 +292,9 @@ mod tests {
     use crate::study::judge::grounds::Grounds;
     use crate::study::{ComputeSettings, Context, StudyControl};
 
-    /// `amur-three-rows` with tires of 350 kg on its rope 14-1960, fired 20 ms apart, by the range of the exponent: by momentum
-    /// none of hundreds of shots fails. Where these tires leave as fast as those of 280 kg, 38 to 63 % do by an independent sampler.
+    /// `amur-three-rows` with tires of 350 kg on its rope 14-1960, fired 20 ms apart, for several ranges of the exponent. By
+    /// momentum none of hundreds of shots fails. If these tires leave as fast as tires of 280 kg, 38 to 63 % fail by an independent
+    /// sampler.
     #[test]
     fn heavier_tires_that_only_momentum_would_hold_are_no_choice() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
@@ -317,8 +319,8 @@ mod tests {
         assert_eq!(verdict([0.0, 1.0]), (2, true, Verdict::Fail));
     }
 
-    /// Any order of three rows at three intervals: with a dud 40.0 kN in 3 2 1, which is not among the hardest as planned, against the
-    /// 39.6 kN of the rope.
+    /// Any order of three rows at three intervals. With a dud, the order 3 2 1 pulls 40.0 kN, against the 39.6 kN of the rope. This
+    /// order is not among the hardest planned shots.
     #[test]
     fn a_size_for_any_order_holds_each_of_them() {
         let text = include_str!("../../../tests/fixtures/dud-in-one-order.toml");
@@ -346,7 +348,7 @@ mod tests {
         assert_ne!(grounds.verdict(), Verdict::Pass);
     }
 
-    /// The plan that is written takes the worse end of the mass law: its launches are those of the first shots.
+    /// The written plan takes the worse end of the mass law: the first shots have its launches.
     #[test]
     fn the_worse_end_comes_first() {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");

@@ -1,12 +1,13 @@
-//! The risk of a sweep: windows worth a check, and an interval whose verdict is a full one.
+//! The risk of a sweep: windows worth a check, and an interval with a full verdict.
 //!
-//! 1. Of the intervals that pass as planned, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each. These
-//!    draws choose; no verdict rests on them.
-//! 2. A window worth a check is a row of sampled intervals, neighbours within one window of the shot as planned, whose
-//!    failing share does not exceed the accepted risk. Its few samples at each interval prove no small risk.
-//! 3. The interval deepest inside a window (largest product of room and of what all but the accepted share of the samples leave of a
-//!    limit) gets a full verdict: that of `check`, with one dud where the plan asks for it, and fresh draws that confirm it. Where that
-//!    does not pass, the next deepest is tried, at most [`MOST_FULL_VERDICTS`] in all. Where it fails, the windows end there.
+//! 1. Of the intervals whose planned shots pass, some about [`MOST_SAMPLED_GAP`] apart are sampled, with the same draws at each.
+//!    These draws choose; no verdict rests on them.
+//! 2. A window worth a check is a row of sampled intervals whose failing share does not exceed the accepted risk. They are
+//!    neighbors within one window of the planned shots. Their few samples prove no small risk.
+//! 3. The interval deepest inside a window gets a full verdict. It has the largest product of its room and of the part of a limit
+//!    that its samples leave, with the accepted share at the top left out. The full verdict is the verdict of `check`, with one dud
+//!    if the plan asks for it, and with fresh draws that confirm it. If it does not pass, the next deepest interval is tried, at
+//!    most [`MOST_FULL_VERDICTS`] in all. If it fails, the windows end there.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,14 +23,14 @@ use crate::study::standing::verdict_word::ThinPass;
 use crate::study::{ComputeResult, Computed, Context, NoResult};
 use crate::verdict::Verdict;
 
-/// Most intervals that get a full verdict.
+/// Greatest number of intervals that get a full verdict.
 const MOST_FULL_VERDICTS: usize = 6;
 
-/// Share of what is left, once the shots as planned are known, that a few samples of many intervals take.
+/// Share of the progress after the planned shots that a few samples of many intervals take.
 const SHARE_OF_FIRST_LOOK: f64 = 0.8;
 
-/// Adds risk to a sweep of the shots as planned; of the `plan_intervals`, those of its options, those that lie in a window as
-/// planned are among the intervals sampled.
+/// Adds risk to a sweep of the planned shots. `plan_intervals` are the intervals of the plan's options: those in a window of
+/// planned shots are among the intervals sampled.
 pub fn add_risk(
     context: &Context<'_>,
     as_planned: Computed<Sweep>,
@@ -62,7 +63,7 @@ pub fn add_risk(
     loop {
         swept.windows_as_planned = find_windows(case, &swept.points);
         swept.windows = windows_of(&swept.points, &swept.windows_as_planned, Point::is_accepted);
-        // Nothing is recommended of what was computed at a step that somebody fixed.
+        // Nothing is recommended at a step that the user fixed.
         if tried.len() == MOST_FULL_VERDICTS || partial || context.compute.step.is_some() {
             break;
         }
@@ -84,12 +85,12 @@ pub fn add_risk(
                     swept.failed_full_verdict += 1;
                     continue;
                 }
-                // More shots than chose it may use more of a limit.
+                // The shots of the full verdict may have a greater utilization than the shots that chose the interval.
                 let in_full = judged.risk.known().map_or(0.0, |risk| risk.utilization);
                 let thin = ThinPass::of_passing_shot(context, &shot)?;
                 let found =
                     Recommended { utilization: candidate.utilization.max(in_full), thin, ..candidate };
-                // A thin pass stands behind one that is not.
+                // A thin pass ranks behind a pass that is not thin.
                 swept.recommended = swept.recommended.filter(|_| thin.is_some()).or(Some(found));
                 if thin.is_none() {
                     break;
@@ -97,7 +98,7 @@ pub fn add_risk(
             }
         }
     }
-    // What was tried after a thin pass may have ended its window, or uses more of a limit within its room.
+    // Intervals tried after a thin pass may have ended its window, or may have a greater utilization within its room.
     if let Some(thin) = swept.recommended.filter(|best| best.thin.is_some()) {
         let found = deepest_sampled(&swept, |point| point.interval == thin.interval);
         swept.recommended = found.map(|found| Recommended {
@@ -109,15 +110,15 @@ pub fn add_risk(
     Ok(Computed { value: swept, partial })
 }
 
-/// The deepest of the sampled intervals that may be recommended, by what their samples use of a limit.
+/// The deepest of the sampled intervals that may be recommended, by the utilization of their samples.
 fn deepest_sampled(swept: &Sweep, may_be_recommended: impl Fn(&Point) -> bool) -> Option<Recommended> {
     let drawn: Vec<Point> = swept.points.iter().filter(|point| point.is_sampled()).copied().collect();
     let used = |point: &Point| point.judged.risk.known().map_or(f64::INFINITY, |risk| risk.utilization);
     deepest(&drawn, &swept.windows, used, may_be_recommended)
 }
 
-/// The full verdict on a shot, as planned by a check in full. Of one that does not pass as planned, the samples that `screened` it stay.
-/// `None` where the time was up.
+/// The full verdict on a shot. Its planned shot gets a full check. If that does not pass, the samples that `screened` the shot
+/// stay. `None` if the time was up.
 fn judge(
     context: &Context<'_>,
     shot: &Shot,
@@ -139,8 +140,8 @@ fn judge(
 }
 
 /// Indices of the points to sample: the plan's own intervals, both ends of each window, whole milliseconds between them, and points
-/// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than that gives its first point only, and only if that is farther from the
-/// last point chosen.
+/// at most [`MOST_SAMPLED_GAP`] apart. A window narrower than that gives only its first point, and only if that point is farther
+/// from the last point chosen.
 fn choose(points: &[Point], windows: &[[Time; 2]], plan_intervals: &BTreeSet<Time>) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     for &[from, to] in windows {
@@ -169,7 +170,7 @@ fn choose(points: &[Point], windows: &[[Time; 2]], plan_intervals: &BTreeSet<Tim
     chosen
 }
 
-/// Rows of sampled points that all are `accepted`, each inside one of the windows `within`; the ends were sampled.
+/// Rows of sampled points that are all `accepted`, each row inside one of the windows `within`. The ends were sampled.
 pub(super) fn windows_of(
     points: &[Point],
     within: &[[Time; 2]],

@@ -1,17 +1,17 @@
-//! Height and force against the interval between rows, the windows of intervals that pass as planned, and those of accepted
+//! Height and force over the interval between rows: the windows of intervals whose planned shots pass, and the windows of accepted
 //! risk ([`accepted`]).
 //!
-//! 1. The intervals asked for are tried, and those of the plan's own options.
-//! 2. The interval in the middle of a *gap* between two neighbours is tried, too, where the gap is wider than [`GAP`] and a
-//!    neighbour passes, where only one neighbour passes, or where both pass but the gap is not *calm*. Gaps are halved down
-//!    to `NARROWEST` in `windows`.
-//! 3. A gap of width w is calm where u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
-//!    neighbours; s is the steepest change of utilization with the interval in this gap and the one on either side.
+//! 1. The requested intervals are tried, and the intervals of the plan's own options.
+//! 2. A *gap* lies between two neighboring intervals. The interval in its middle is tried, too, in three cases: the gap is wider
+//!    than [`GAP`] and a neighbor passes; only one neighbor passes; both pass, but the gap is not *calm*. Gaps are halved down to
+//!    `NARROWEST` in `windows`.
+//! 3. A gap of width w is calm if u + s w ≤ 1. u is the greater upper bound (value + error) of the utilization at its two
+//!    neighbors. s is the steepest change of the utilization with the interval, in this gap and in the gap on either side.
 //! 4. A window is a row of passing intervals with calm gaps no wider than [`GAP`]. Its ends are intervals that were tried.
 //!
-//! The plan's own intervals, the ends of windows and the recommended interval are checked as `check` does, the others by a
-//! quick check: at steps as coarse as their distance from the limits allows. Where utilization jumps, the interval of the jump
-//! depends on the step a little; so a window is narrowed until both ends pass.
+//! The plan's own intervals, the ends of windows and the recommended interval are checked as `check` does. The others get a quick
+//! check, at steps as coarse as their distance from the limits allows. Where the utilization jumps, the interval of the jump
+//! depends a little on the step. So a window is narrowed until both ends pass.
 
 mod accepted;
 mod windows;
@@ -39,7 +39,7 @@ pub struct Point {
     pub interval: Time,
     /// What is known of its shot.
     pub judged: BriefJudgement,
-    /// Whether the shot as planned got a quick check alone.
+    /// Whether the planned shot got only a quick check.
     pub is_quick: bool,
 }
 
@@ -54,7 +54,7 @@ impl Point {
         self.judged.risk.known().is_some()
     }
 
-    /// Whether the shot as planned passes, the failing share of its samples does not exceed the accepted risk, and one dud does not
+    /// Whether the planned shot passes, the failing share of its samples does not exceed the accepted risk, and one dud does not
     /// make it fail.
     pub fn is_accepted(&self) -> bool {
         let is_not_refuted = passes(self) && self.verdict() != Verdict::Fail;
@@ -71,19 +71,19 @@ pub struct Sweep {
     pub holes: HoleTiming,
     /// Points in ascending order of the interval.
     pub points: Vec<Point>,
-    /// Ranges of intervals in which every interval tried passes as planned; the ends were tried.
+    /// Ranges of intervals in which the planned shot of every interval tried passes. The ends were tried.
     pub windows_as_planned: Vec<[Time; 2]>,
-    /// Windows worth a check: ranges of intervals in which every interval sampled is accepted; the ends were sampled.
-    /// Where only the shots as planned were asked for, the windows as planned.
+    /// Windows worth a check: ranges of intervals in which every interval sampled is accepted. The ends were sampled. If only the
+    /// planned shots were requested, these are the windows of planned shots.
     pub windows: Vec<[Time; 2]>,
-    /// The recommended interval; `None` where no window is wider than a point, or no full verdict passes.
+    /// The recommended interval; `None` if no window is wider than a point, or no full verdict passes.
     pub recommended: Option<Recommended>,
     /// Number of intervals whose full verdict does not pass.
     pub failed_full_verdict: usize,
 }
 
 impl Computed<Sweep> {
-    /// The verdict: pass where an interval is recommended, fail where every interval of the range was tried and surely fails.
+    /// The verdict: pass if an interval is recommended, fail if every interval of the range was tried and surely fails.
     pub fn verdict(&self) -> Verdict {
         let Computed { value: Sweep { points, recommended, .. }, partial } = self;
         let all_fail = !points.is_empty() && points.iter().all(|point| point.verdict() == Verdict::Fail);
@@ -95,45 +95,47 @@ impl Computed<Sweep> {
     }
 }
 
-/// An interval deep inside a window worth a check, or without samples inside one that passes as planned.
+/// An interval deep inside a window worth a check; without samples, inside a window whose planned shots pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recommended {
     /// Interval between successive rows.
     pub interval: Time,
     /// Room on either side: within this distance every interval tried is inside the window.
     pub room: Time,
-    /// Greatest utilization of all intervals within the room: with samples, of all but the accepted share of those of each;
-    /// without, of the shot as planned, errors included.
+    /// Greatest utilization of all intervals within the room. With samples, the accepted share of the samples at the top is left
+    /// out at each interval. Without samples, the planned shot counts, errors included.
     pub utilization: f64,
-    /// What ends its pass, where that is a thin one; not looked for without samples.
+    /// What ends its pass, if the pass is thin. Not searched without samples.
     pub thin: Option<ThinPass>,
 }
 
-/// Greatest distance between neighbouring points inside a window.
+/// Greatest distance between neighboring points inside a window.
 pub const GAP: Time = Time::from_nanoseconds(250_000);
-/// Greatest distance between neighbouring sampled points inside a window.
+/// Greatest distance between neighboring sampled points inside a window.
 const MOST_SAMPLED_GAP: Time = Time::from_nanoseconds(1_000_000);
-/// What is swept where nobody asks for other intervals; between them more are tried where the answer changes.
+/// Intervals of a sweep, unless the user asks for others. More are tried between them where the answer changes.
 pub const DEFAULT_INTERVALS: Intervals =
     Intervals { from: Time::ZERO, to: Time::from_nanoseconds(500_000_000), step: GAP };
 
-/// Share of a sweep with samples that the shots as planned take, and shares of what is left of it that its rounds take.
+/// Share of a sweep with samples that the planned shots take. Of the rest of that part, the shares of its first round and of each
+/// later round.
 const SHARE_AS_PLANNED: f64 = 0.15;
 const SHARE_OF_FIRST_ROUND: f64 = 0.7;
 const SHARE_OF_ROUND: f64 = 0.4;
 
-/// Height, force and risk against the interval.
+/// The question: height, force and risk over the interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// Blast rows in firing order.
     pub order: Vec<usize>,
     /// Intervals between successive rows.
     pub intervals: Intervals,
-    /// How the holes of each row fire at every interval; `None` where the options differ, and nobody says it.
+    /// How the holes of each row fire at every interval; `None` if the options differ, and nobody says it.
     pub holes: Option<HoleTiming>,
 }
 
-/// Runs of a sweep before its verdicts: as planned, and the first look at the intervals that pass. Measured on `amur-three-rows`.
+/// Runs of a sweep before its verdicts: the planned shots, and the first look at the intervals that pass. Measured on
+/// `amur-three-rows`.
 const RUNS_BEFORE_VERDICTS: usize = 60_000;
 
 impl Study for Question {
@@ -159,7 +161,7 @@ impl Study for Question {
     }
 }
 
-/// Sweeps the interval between the rows of `order`. Without a `sampling` only the shots as planned count.
+/// Sweeps the interval between the rows of `order`. Without a `sampling` only the planned shots count.
 pub fn sweep(
     context: &Context<'_>,
     order: &[usize],
@@ -179,7 +181,7 @@ pub fn sweep(
     accepted::add_risk(context, as_planned, &planned, &sampling)
 }
 
-/// Sweeps the shots as planned.
+/// Sweeps the planned shots.
 fn sweep_as_planned(
     context: &Context<'_>,
     order: &[usize],
@@ -191,7 +193,7 @@ fn sweep_as_planned(
     let mut next: BTreeSet<Time> = intervals.values().into_iter().collect();
     next.extend(exact.range(intervals.from..=intervals.to));
     let mut tried: BTreeMap<Time, ShotSummary> = BTreeMap::new();
-    // Of those to be checked in full, those that were.
+    // The intervals of `exact` that were checked in full.
     let mut checked_in_full: BTreeSet<Time> = BTreeSet::new();
     loop {
         let _round = control.part(if tried.is_empty() { SHARE_OF_FIRST_ROUND } else { SHARE_OF_ROUND });
@@ -207,12 +209,12 @@ fn sweep_as_planned(
             }
             checked
         };
-        // Of the points between points that are known, all may fail.
+        // Points between known points may all fail.
         let checked = match tried.is_empty() {
             true => run_checks(&jobs, control, work)?,
             false => run_checks_or_failed(&jobs, control, work)?,
         };
-        // Out of time: gaps keep the width they have, and windows end there.
+        // Out of time: gaps keep their width, and windows end there.
         let partial = checked.contains(&None);
         let in_full =
             jobs.iter().zip(&checked).filter(|(at, checked)| exact.contains(at) && checked.is_some());
@@ -231,7 +233,7 @@ fn sweep_as_planned(
             continue;
         }
         let windows = find_windows(case, &points);
-        // Out of time, only an interval that is checked as `check` does can be recommended.
+        // Out of time, only an interval that was checked as `check` does can be recommended.
         let recommended = recommend(case, &points, &windows)
             .filter(|recommended| !partial || checked_in_full.contains(&recommended.interval))
             .filter(|_| !case.plan.uncertainty.launch_is_estimated());
@@ -256,7 +258,7 @@ fn sweep_as_planned(
     }
 }
 
-/// Intervals of the options that fire the rows at one interval, and of the options that fire them in this order.
+/// Intervals of the plan's options: of options with an interval, and of options with firing times that fire the rows in this order.
 fn plan_intervals(case: &Case, order: &[usize], holes: HoleTiming) -> Vec<Time> {
     let mut intervals = case.plan.intervals(Some(holes));
     for (delay, shot) in case.plan.delays.iter().zip(&case.shots) {
@@ -270,8 +272,8 @@ fn plan_intervals(case: &Case, order: &[usize], holes: HoleTiming) -> Vec<Time> 
     intervals
 }
 
-/// Whether two intervals lie farther apart than `gap`, by more than a hundredth of it: gaps that are halved again and again end
-/// beside the width that was asked for.
+/// Whether two intervals lie farther apart than `gap`, by more than a hundredth of it. Gaps that are halved again and again end
+/// near the requested width, not exactly at it.
 fn are_apart(from: Time, to: Time, gap: Time) -> bool {
     (to - from) * 100 > gap * 101
 }
@@ -291,13 +293,13 @@ impl Sweep {
         [interval_of(self.points.first()), interval_of(self.points.last())]
     }
 
-    /// Whether samples were asked for.
+    /// Whether samples were requested.
     pub fn has_risk(&self) -> bool {
         self.points.iter().any(|point| point.judged.risk.is_asked())
     }
 
-    /// Ranges of intervals in which every interval tried passes; the ends were tried. With samples only what has a full verdict passes, so
-    /// that such a range is often one interval.
+    /// Ranges of intervals in which every interval tried passes. The ends were tried. With samples, only an interval with a full
+    /// verdict passes, so such a range is often one interval.
     pub fn passing_windows(&self) -> Vec<[Time; 2]> {
         if !self.has_risk() {
             return self.windows.clone();
@@ -306,7 +308,7 @@ impl Sweep {
         accepted::windows_of(&self.points, &self.windows, has_passed)
     }
 
-    /// Greatest distance between neighbouring points inside any window; of the sampled points where there are samples.
+    /// Greatest distance between neighboring points inside any window; with samples, between the sampled points.
     pub fn largest_gap(&self) -> Time {
         let counts = |point: &&Point| !point.judged.risk.is_asked() || point.is_sampled();
         let points: Vec<Point> = self.points.iter().filter(counts).copied().collect();
@@ -322,7 +324,7 @@ impl Sweep {
         self.points.iter().max_by(|a, b| utilization(case, a).total_cmp(&utilization(case, b)))
     }
 
-    /// Room on either side of an interval as that of the [`Recommended`] one; `None` in no window.
+    /// Room on either side of an interval, like the room of the [`Recommended`] interval; `None` if it lies in no window.
     pub fn room_beside(&self, interval: Time) -> Option<Time> {
         let around = self.windows.iter().find(|[from, to]| (*from..=*to).contains(&interval));
         around.map(|&[from, to]| (interval - from).min(to - interval))
@@ -348,7 +350,7 @@ mod tests {
     use crate::study::as_planned::cover::Cover;
     use crate::verdict::PerQuantity;
 
-    /// Tries a shelter whose height is `height` [m] at an interval [ms], limit 1 m, at first every `step` [ms] up to 20 ms.
+    /// Tries a shelter with the height `height` [m] at an interval [ms] and a limit of 1 m, at first every `step` [ms] up to 20 ms.
     fn tried(step: f64, height: impl Fn(f64) -> f64) -> Vec<[Time; 2]> {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml")
             .replace("flight_height_m = 2.35", "flight_height_m = 1");
@@ -380,7 +382,7 @@ mod tests {
         }
     }
 
-    /// Whether any window holds the interval `at` [ms].
+    /// Whether any window contains the interval `at` [ms].
     fn hold(windows: &[[Time; 2]], at: f64) -> bool {
         windows.iter().any(|[from, to]| (*from..=*to).contains(&Time::from_ms(at)))
     }
@@ -404,7 +406,7 @@ mod tests {
 
     #[test]
     fn the_recommended_interval_is_deep_and_not_a_minimum_in_a_narrow_window() {
-        // Utilization 0.1 from 2 to 2.4 ms, 0.6 from 5 to 11.8 ms, past the limit elsewhere.
+        // Utilization 0.1 from 2 to 2.4 ms, 0.6 from 5 to 11.8 ms; elsewhere it exceeds the limit.
         let height = |at: f64| match at {
             2.0..=2.4 => 0.1,
             5.0..=11.8 => 0.6,
@@ -439,7 +441,7 @@ mod tests {
         // A window begins and ends a point before the limit. The middle of 5.1 to 11.7 ms is no whole number of milliseconds.
         assert_eq!((recommended.interval, recommended.room), (Time::from_ms(8.0), Time::from_ms(2.9)));
         assert_eq!(recommended.utilization, 0.6);
-        // From 2.1 to 2.3 ms there is no whole one.
+        // From 2.1 to 2.3 ms there is no whole millisecond.
         let narrow = recommend(&case, &points, &[[2.1, 2.3].map(Time::from_ms)]).expect("a window");
         assert_eq!(narrow.interval, Time::from_ms(2.2));
     }

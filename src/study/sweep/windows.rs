@@ -1,4 +1,4 @@
-//! Windows of passing intervals, the gaps in them that must be halved, and the interval deepest inside one.
+//! Windows of passing intervals, the gaps in them to halve, and the interval deepest inside a window.
 
 use super::{GAP, Point, Recommended, are_apart, passes, utilization};
 use crate::plan::Time;
@@ -7,14 +7,14 @@ use crate::study::Case;
 /// Gaps as narrow as this are not halved: an eighth of [`GAP`].
 const NARROWEST: Time = Time::from_nanoseconds(31_250);
 
-/// Factor on the errors of two points, with which the limits must be out of reach between them. Of the intervals checked inside
-/// windows 0.03 % then fail (`benches/RESULTS.md`).
+/// Factor on the errors of two points with which the limits must be out of reach between them. With it, 0.03 % of the intervals
+/// checked inside windows fail (`benches/RESULTS.md`).
 const CALM_ERROR_FACTOR: f64 = 1.0;
 
-/// Room that counts for a recommended interval: more than detonators scatter.
+/// Greatest room that counts for a recommended interval: more than detonators scatter.
 const ENOUGH_ROOM: Time = Time::from_nanoseconds(10_000_000);
 
-/// Middles of the gaps to be halved.
+/// Middles of the gaps to halve.
 pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<Time> {
     let halved = |&n: &usize| {
         let (a, b) = (&points[n], &points[n + 1]);
@@ -31,7 +31,7 @@ pub(super) fn midpoints(case: &Case, points: &[Point]) -> Vec<Time> {
     (0..points.len().saturating_sub(1)).filter(halved).map(middle).collect()
 }
 
-/// Whether no interval in the gap after point `n` can reach a limit, as far as its neighbours tell.
+/// Whether no interval in the gap after point `n` can reach a limit, as far as its neighbors show.
 fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     let slope = |pair: &[Point]| {
         let change = (utilization(case, &pair[1]) - utilization(case, &pair[0])).abs();
@@ -45,12 +45,12 @@ fn is_calm(case: &Case, points: &[Point], n: usize) -> bool {
     highest(&points[n]).max(highest(&points[n + 1])) + steepest * width <= 1.0
 }
 
-/// Utilization with the errors added.
+/// Utilization of the planned shot with the errors added.
 pub(super) fn utilization_with_errors(case: &Case, point: &Point) -> f64 {
     point.judged.planned.with_errors(1.0).utilization(&case.limits)
 }
 
-/// The windows of intervals that pass as planned.
+/// The windows of intervals whose planned shots pass.
 pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[Time; 2]> {
     let joined = |n: usize| {
         let (a, b) = (&points[n], &points[n + 1]);
@@ -66,13 +66,13 @@ pub(super) fn find_windows(case: &Case, points: &[Point]) -> Vec<[Time; 2]> {
     windows
 }
 
-/// The interval deepest inside a window of the shots as planned, by their utilization with errors.
+/// The interval deepest inside a window of planned shots, by their utilization with errors.
 pub(super) fn recommend(case: &Case, points: &[Point], windows: &[[Time; 2]]) -> Option<Recommended> {
     deepest(points, windows, |point| utilization_with_errors(case, point), |_| true)
 }
 
-/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest: of whole milliseconds,
-/// which electronic detonators are programmed in, and of all where none of those is inside a window.
+/// The interval and the room r around it for which r × (1 − greatest utilization within r) is greatest. Whole milliseconds come
+/// first, because electronic detonators are programmed in whole milliseconds. If none lies inside a window, all intervals count.
 pub(super) fn deepest(
     points: &[Point],
     windows: &[[Time; 2]],
@@ -99,13 +99,13 @@ fn deepest_of(
         {
             let most = ENOUGH_ROOM.min(interval - from).min(to - interval);
             let (mut low, mut high, mut greatest) = (n, n, utilization_of(&inside[n]));
-            // The room grows point by point, to the nearer one first.
+            // The room grows point by point, to the nearer point first.
             loop {
                 let left = low.checked_sub(1).map(|n| interval - inside[n].interval);
                 let right = inside.get(high + 1).map(|point| point.interval - interval);
                 let next = left.into_iter().chain(right).min();
                 let room = next.map_or(most, |next| next.min(most));
-                // The points at the end of the room count.
+                // The points at the end of the room count, too.
                 if left.is_some_and(|left| left <= room) {
                     low -= 1;
                     greatest = greatest.max(utilization_of(&inside[low]));

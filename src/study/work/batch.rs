@@ -1,4 +1,4 @@
-//! Many jobs of one study, spread over the cores.
+//! Runs many jobs of one study on all cores.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -6,13 +6,13 @@ use rayon::prelude::*;
 
 use super::{NoResult, StudyControl};
 
-/// `threads` threads to compute on, one per core where 0; they end once the pool is dropped and its work is done.
+/// A pool of `threads` threads, one per core if 0. The threads end once the pool is dropped and its work is done.
 pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, NoResult> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| NoResult::NoThreads(error.to_string()))
 }
 
-/// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` where the time ran out. The
+/// Does `work` for every job, in parallel. Returns the results in the order of the jobs; `None` for jobs that ran out of time. The
 /// number of threads does not change the results.
 pub fn run_batch<J: Sync, T: Send>(
     jobs: &[J],
@@ -23,7 +23,7 @@ pub fn run_batch<J: Sync, T: Send>(
     run_announced_batch(jobs, control, work)
 }
 
-/// Like [`run_batch`], for jobs that [`StudyControl::announce`] knows of already.
+/// Like [`run_batch`], for jobs that were already announced by [`StudyControl::announce`].
 pub fn run_announced_batch<J: Sync, T: Send>(
     jobs: &[J],
     control: &StudyControl,
@@ -54,7 +54,7 @@ pub fn run_announced_batch<J: Sync, T: Send>(
     results.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect()
 }
 
-/// Does `work` for every number below `count`, in parallel. What spreads it over the cores is compiled once, not for each kind of work.
+/// Does `work` for every number below `count`, in parallel. This code is compiled once, not for each kind of work.
 fn for_each_number(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(work);
 }

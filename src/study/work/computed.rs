@@ -1,4 +1,4 @@
-//! What a study returns.
+//! Result of a study.
 
 use crate::study::NoResult;
 
@@ -7,7 +7,7 @@ use crate::study::NoResult;
 pub struct Computed<T> {
     /// The result.
     pub value: T,
-    /// Whether the time was up before all was computed; `value` then comes from what was.
+    /// Whether the time was up before everything was computed. `value` then comes from what was computed.
     pub partial: bool,
 }
 
@@ -18,5 +18,5 @@ impl<T> Computed<T> {
     }
 }
 
-/// What a study returns: its result, or why there is none.
+/// Result of a study, or why there is none.
 pub type ComputeResult<T> = Result<Computed<T>, NoResult>;

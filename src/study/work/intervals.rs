@@ -1,4 +1,4 @@
-//! The intervals that a sweep or a ranking of orders is asked for.
+//! The intervals of a sweep or of a ranking of orders.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ pub struct Intervals {
     pub from: Time,
     /// Last interval.
     pub to: Time,
-    /// Distance between neighbours, more than 0.
+    /// Distance between neighboring intervals, more than 0.
     pub step: Time,
 }
 

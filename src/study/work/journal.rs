@@ -1,7 +1,7 @@
-//! Results of pieces of work by their fingerprints: those that an earlier run of the same study saved, and those that come.
+//! Results of pieces of work by their fingerprints: the results that an earlier run of the same study saved, and new results.
 //!
-//! A study is computed from its beginning each time, and takes from the journal what is there. So its result depends neither on
-//! where it was stopped nor on which machine computed a piece.
+//! A study is always computed from its beginning, and takes from the journal what is there. So its result depends neither on where
+//! it was stopped, nor on which machine computed a piece.
 
 use std::collections::HashMap;
 use std::fmt::{self, Debug, Write as _};
@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 
 use super::NoResult;
 
-/// What a piece of work is of: a digest of everything that its result depends on.
+/// Identity of a piece of work: a digest of everything that its result depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fingerprint(u128);
 
@@ -46,7 +46,7 @@ impl fmt::Write for DigestOfText {
     }
 }
 
-/// Results known before, and the file that takes new ones. The default knows nothing and keeps nothing.
+/// Results known before, and the file that takes new results. The default journal has neither.
 #[derive(Debug, Default)]
 pub struct Journal {
     known: HashMap<Fingerprint, Box<str>>,
@@ -54,18 +54,18 @@ pub struct Journal {
     recalled: AtomicUsize,
 }
 
-/// The end of a file of results.
+/// The open end of a results file.
 #[derive(Debug)]
 struct Appender {
     file: File,
-    /// Lines of results in the file.
+    /// Number of result lines in the file.
     results: usize,
     synced: Instant,
-    /// The first error: nothing is written after a line that may be torn.
+    /// The first error. After it nothing more is written, because the last line may be torn.
     failed: Option<io::Error>,
 }
 
-/// Time after which results are handed to the disk, for a loss of power.
+/// Time after which results are written through to the disk, in case of a power loss.
 const SYNC_EVERY: Duration = Duration::from_secs(5);
 
 impl Journal {
@@ -74,18 +74,18 @@ impl Journal {
         Self { known, ..Self::default() }
     }
 
-    /// The journal that goes on with a file, which holds `results` lines of them.
+    /// The journal that continues a file with `results` lines of results.
     pub fn appending(self, file: File, results: usize) -> Self {
         let appender = Appender { file, results, synced: Instant::now(), failed: None };
         Self { file: Some(Mutex::new(appender)), ..self }
     }
 
-    /// Whether there is anything to recall or to keep.
+    /// Whether the journal has results, or keeps new ones.
     pub fn is_on(&self) -> bool {
         self.file.is_some() || !self.known.is_empty()
     }
 
-    /// Number of results that were recalled.
+    /// Number of recalled results.
     pub fn recalled(&self) -> usize {
         self.recalled.load(Ordering::Relaxed)
     }
@@ -109,7 +109,7 @@ impl Journal {
         Ok(result)
     }
 
-    /// Appends a result. One that would not be read as it was written is left out, and computed anew.
+    /// Appends a result. A result that would not be read back as it was written is left out, and computed anew later.
     fn keep<T: Serialize + DeserializeOwned + PartialEq>(&self, fingerprint: Fingerprint, result: &T) {
         let Some(file) = &self.file else { return };
         let Ok(text) = serde_json::to_string(result) else { return };
@@ -119,7 +119,7 @@ impl Journal {
         }
     }
 
-    /// Marks the file as complete: it holds all that the study computed.
+    /// Marks the file as complete: it holds everything that the study computed.
     pub fn complete(&self) {
         let Some(file) = &self.file else { return };
         let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
@@ -127,7 +127,7 @@ impl Journal {
         file.append(&line, 0);
     }
 
-    /// Hands what was kept to the disk; the error where not all of it was written.
+    /// Writes the kept results through to the disk. Returns an error if not all of them were written.
     pub fn close(self) -> io::Result<()> {
         let Some(file) = self.file else { return Ok(()) };
         let Appender { file, failed, .. } = file.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -140,7 +140,7 @@ impl Appender {
         if self.failed.is_some() {
             return;
         }
-        // A line is written whole, so that a killed program tears the last line at most.
+        // A line is written in one piece, so that a killed program tears the last line at most.
         let written = self.file.write_all(line.as_bytes()).and_then(|()| {
             self.results += results;
             if self.synced.elapsed() < SYNC_EVERY {
@@ -168,12 +168,12 @@ fn check_digits(body: &str) -> String {
     digits
 }
 
-/// A line of a file of results: an object of JSON without its closing brace, sealed with the checksum of what stands before.
+/// A line of a results file: a JSON object without its closing brace, sealed with the checksum of the text before.
 pub(in crate::study) fn sealed(body: &str) -> String {
     format!("{body}{CHECK}{}\"}}\n", check_digits(body))
 }
 
-/// The body of a sealed line; `None` where the line is not as it was written.
+/// The body of a sealed line; `None` if the line was changed.
 pub(in crate::study) fn unsealed(line: &str) -> Option<&str> {
     let (body, check) = line.rsplit_once(CHECK)?;
     (check.strip_suffix("\"}")? == check_digits(body)).then_some(body)
@@ -183,11 +183,11 @@ pub(in crate::study) fn unsealed(line: &str) -> Option<&str> {
 pub(in crate::study) enum Line<'t> {
     /// A result, as JSON.
     Result(Fingerprint, &'t str),
-    /// So many results stand before; the study was computed to its end.
+    /// The study was computed to its end, with so many results before this line.
     Complete(usize),
 }
 
-/// What the body of a line says; `None` where it is no such line.
+/// The content of the body of a line; `None` if it is no such line.
 pub(in crate::study) fn read_body(body: &str) -> Option<Line<'_>> {
     if let Some(count) = body.strip_prefix(&format!("{{\"{COMPLETE}\":")) {
         return count.parse().ok().map(Line::Complete);
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(journal.recalled(), 2);
     }
 
-    /// A result that the file did not take is told when it is closed.
+    /// If the file does not take a result, closing the journal reports it.
     #[test]
     fn what_was_not_written_is_told() {
         let file = tempfile::NamedTempFile::new().expect("a file");

@@ -4,20 +4,20 @@
 //! |---|---|
 //! | jobs on all cores | [`batch`] |
 //! | results that survive the end of the program | [`journal`] |
-//! | how far it is | [`progress`] |
-//! | how it is stopped | `study_control` |
+//! | progress of a study | [`progress`] |
+//! | how a study is stopped | `study_control` |
 //! | a result, whole or partial; why there is none | `computed`, `no_result` |
-//! | intervals to be tried | `intervals` |
+//! | intervals to try | `intervals` |
 //! | the part of a study that one machine computes | `shard` |
 //!
-//! When the time is up:
+//! When the time is up, each level has its own result:
 //!
-//! | where | what it becomes |
+//! | level | result |
 //! |---|---|
 //! | a run | `RunError::Stopped`, and by [`StudyControl::no_result`] `NoResult::OutOfTime` |
 //! | a job of a batch | `None` in the place of its result ([`batch::run_batch`]) |
-//! | an option, a combination, a change among others | a result that says so: `NoResult::OutOfTime`, `Untried::OutOfTime`, `TriedKind::out_of_time` |
-//! | a study | [`Computed::partial`], with what was found by then; `NoResult::OutOfTime` where nothing was |
+//! | an option, a combination, a change | a result that says so: `NoResult::OutOfTime`, `Untried::OutOfTime`, `TriedKind::out_of_time` |
+//! | a study | [`Computed::partial`], with what was found by then; `NoResult::OutOfTime` if nothing was |
 
 pub mod batch;
 mod computed;

@@ -7,8 +7,7 @@ use crate::simulation::RunError;
 /// Why an option or a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoResult {
-    /// A run failed by itself; of a run that was ended [`StudyControl::no_result`](super::StudyControl::no_result) tells the
-    /// reason.
+    /// A run failed by itself. For a run that was ended, [`StudyControl::no_result`](super::StudyControl::no_result) gives the reason.
     #[error(transparent)]
     Failed(RunError),
     /// The user or a signal ended the study.
@@ -17,7 +16,7 @@ pub enum NoResult {
     /// The time was up.
     #[error("not computed: ended early")]
     OutOfTime,
-    /// The program panicked; the text is that of the panic.
+    /// The program panicked with this text.
     #[error("internal error: {0}")]
     Panicked(String),
     /// The system refused threads to compute on.
@@ -26,10 +25,10 @@ pub enum NoResult {
     /// A plan of one blast row has no interval to sweep.
     #[error("a single blast row has no interval to sweep")]
     SingleRow,
-    /// A plan whose options have firing times of their own has no interval to try orders at.
+    /// The options of the plan have firing times of their own, so there is no interval at which to try orders.
     #[error("no delay option has an interval")]
     NoInterval,
-    /// A study of other intervals or orders does not know how the holes of a row are to fire.
+    /// The options differ in how the holes of a row fire. So a study of other intervals or orders cannot choose.
     #[error("the delay options differ in hole_interval_ms or hole_order: which of them is meant?")]
     HolesDiffer,
     /// Machines cannot share the question.
@@ -37,7 +36,7 @@ pub enum NoResult {
     NotShared(String),
 }
 
-/// Does one piece of work; turns a panic into [`NoResult::Panicked`], so that other work goes on.
+/// Does one piece of work. A panic becomes [`NoResult::Panicked`], so that other work goes on.
 pub fn catch_panic<T>(work: impl FnOnce() -> Result<T, NoResult>) -> Result<T, NoResult> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str);

@@ -1,53 +1,54 @@
-//! How far a study is: a fraction that never decreases, the step it is at, and what is being judged.
+//! Progress of a study: a fraction that never decreases, the present step, and what is being judged.
 //!
-//! A study is made of parts, one after the other, and a part of smaller parts. Each part takes a share of what is left of the part
-//! around it, so that a loop whose number of rounds nobody knows has a fraction, too. Within a part the fraction follows the pieces
-//! of work done of those announced there. A part that ends early leaps to its end.
+//! A study consists of parts, one after the other, and a part consists of smaller parts. Each part takes a share of the rest of the
+//! part around it. So even a loop with an unknown number of rounds has a fraction. Within a part the fraction is the share of the
+//! pieces of work announced there that are done. A part that ends early jumps to its end.
 //!
-//! Parts follow one another on one thread. Work inside a batch has no parts: there the pieces alone count.
+//! Parts follow one another on one thread. Work inside a batch has no parts: only its pieces count.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Progress {
     /// Share of the work done, from 0 to 1.
     pub fraction: f64,
-    /// The step it is at, from 1; 0 where the study has no steps.
+    /// The present step, from 1; 0 if the study has no steps.
     pub step: usize,
-    /// Number of its steps.
+    /// Number of steps.
     pub steps: usize,
-    /// What is being judged, by name.
+    /// Name of what is being judged.
     pub trying: Option<String>,
-    /// The best found so far, by name: nothing is proven of it.
+    /// Name of the best result so far. Nothing about it is proven.
     pub best: Option<String>,
-    /// What was tried, as far as it is drawn: its place, in the unit of the study, and the share of a limit that its shots use at most.
+    /// Trials to draw: the place of each, in the unit of the study, and the greatest utilization of its shots.
     pub tried: Vec<(f64, f64)>,
-    /// The same of possible shots, where they are told apart: the share that all but the accepted share of those at a place use at most.
+    /// The same for sampled shots, if the study tells them apart: their greatest utilization at a place, with the accepted share at
+    /// the top left out.
     pub sampled: Vec<(f64, f64)>,
 }
 
 impl Progress {
-    /// Time left of the whole study, from the pace so far; `computed` is the share of what is done that was computed in the `elapsed`
-    /// time. `None` while too little is done to tell.
+    /// Time left of the whole study, from the pace so far. `computed` is the share of the work done that was computed in the
+    /// `elapsed` time. `None` while too little is done for an estimate.
     pub fn time_left(&self, elapsed: Duration, computed: f64) -> Option<Duration> {
         let known = elapsed > WATCHED && self.fraction * computed > LEAST_KNOWN;
         known.then(|| elapsed.mul_f64((1.0 - self.fraction) / (self.fraction * computed)))
     }
 }
 
-/// Time that a study runs, and share of it that is done, before the time left is told.
+/// Least running time of a study, and least share done, before the time left is reported.
 const WATCHED: Duration = Duration::from_millis(500);
 const LEAST_KNOWN: f64 = 0.01;
 
-/// Most points of what was tried: more would not be told apart.
+/// Greatest number of trials to draw. More points could not be told apart.
 const MOST_DRAWN: usize = 10_000;
 
 /// Pieces of work done and announced since a study began.
 pub type Counts = (usize, usize);
 
-/// A part of a study: from which fraction to which, and the counts at which its pieces began.
+/// A part of a study: its first and last fraction, and the counts at which it began.
 #[derive(Clone, Copy, Debug)]
 struct Range {
     from: f64,
@@ -57,13 +58,13 @@ struct Range {
 
 #[derive(Debug)]
 struct Parts {
-    /// From the whole study to the part that it is at.
+    /// Parts, from the whole study down to the present part.
     nested: Vec<Range>,
-    /// The greatest fraction shown: none lower follows.
+    /// The greatest fraction shown. No lower fraction follows.
     shown: f64,
     step: usize,
     steps: usize,
-    /// Batches under way.
+    /// Number of batches in progress.
     batches: usize,
     trying: Option<String>,
     best: Option<(f64, String)>,
@@ -71,7 +72,7 @@ struct Parts {
     sampled: Vec<(f64, f64)>,
 }
 
-/// The parts of a study under way.
+/// The parts of a study in progress.
 #[derive(Debug)]
 pub struct StudyParts(Mutex<Parts>);
 
@@ -97,7 +98,7 @@ impl StudyParts {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// How far the study is at these counts.
+    /// Progress of the study at these counts.
     pub fn progress(&self, counts: Counts) -> Progress {
         let mut parts = self.lock();
         let fraction = parts.fraction(counts);
@@ -112,7 +113,7 @@ impl StudyParts {
         }
     }
 
-    /// Says how many steps the study has: its outermost parts. A study inside another has none of its own.
+    /// Sets the number of steps of the study: its outermost parts. A study inside another has no steps of its own.
     pub fn has_steps(&self, steps: usize) {
         let mut parts = self.lock();
         if parts.nested.len() == 1 && parts.steps == 0 {
@@ -120,12 +121,12 @@ impl StudyParts {
         }
     }
 
-    /// Says what is being judged, by name.
+    /// Notes the name of what is being judged.
     pub fn note_trying(&self, name: String) {
         self.lock().trying = Some(name);
     }
 
-    /// Says what was tried: its place, and the share of a limit that its shots use at most.
+    /// Notes a trial: its place, and the greatest utilization of its shots.
     pub fn note_tried(&self, place: f64, share: f64) {
         let mut parts = self.lock();
         if share.is_finite() && parts.tried.len() < MOST_DRAWN {
@@ -133,15 +134,15 @@ impl StudyParts {
         }
     }
 
-    /// Says of the shots that were drawn at a place how much of a limit all but the accepted share of them use at most, infinite where
-    /// too many are undecided, or break cables: what was said of it before no longer counts.
+    /// Notes the sampled shots at a place: their greatest utilization, with the accepted share at the top left out. It is infinite
+    /// if too many are undecided or break cables. This replaces the earlier note at the place.
     pub fn note_sampled(&self, place: f64, share: f64) {
         let mut parts = self.lock();
         parts.sampled.retain(|(known, _)| *known != place);
         parts.sampled.push((place, share));
     }
 
-    /// Says what was found, by name: the least score so far is the best.
+    /// Notes a result by its score and name. The result with the least score so far is the best.
     pub fn note_found(&self, score: f64, name: impl FnOnce() -> String) {
         let mut parts = self.lock();
         if score.is_finite() && parts.best.as_ref().is_none_or(|(least, _)| score < *least) {
@@ -149,7 +150,7 @@ impl StudyParts {
         }
     }
 
-    /// Begins a part that takes this share of what is left. Returns whether there is one: not inside a batch.
+    /// Begins a part that takes this share of the rest. Returns false inside a batch, which has no parts.
     pub fn begin(&self, share_of_rest: f64, counts: Counts) -> bool {
         let mut parts = self.lock();
         if parts.batches > 0 {
@@ -165,7 +166,7 @@ impl StudyParts {
         true
     }
 
-    /// Ends the part begun last.
+    /// Ends the part that began last.
     pub fn end(&self, counts: Counts) {
         let mut parts = self.lock();
         let Some(ended) = parts.nested.pop() else { return };
@@ -175,7 +176,7 @@ impl StudyParts {
         }
     }
 
-    /// Begins a batch: until it ends there are no new parts.
+    /// Begins a batch. No new parts begin until it ends.
     pub fn begin_batch(&self) {
         self.lock().batches += 1;
     }

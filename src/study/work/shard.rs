@@ -1,4 +1,4 @@
-//! Which part of a study one machine computes.
+//! The part of a study that one machine computes.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How far a study is, what of it was computed before, and the two ways to end it early.
+//! Control of a study: its progress, its earlier results, and the two ways to end it early.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -20,12 +20,12 @@ pub struct StudyControl {
 }
 
 impl StudyControl {
-    /// The control of a study whose results are kept in a journal.
+    /// The control of a study that keeps its results in a journal.
     pub fn with_journal(journal: Journal) -> Self {
         Self { journal, ..Self::default() }
     }
 
-    /// The results computed before.
+    /// The journal with the results computed before.
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
@@ -40,28 +40,28 @@ impl StudyControl {
         self.stopped.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the study was told to end without a result.
+    /// Whether the study was stopped, without a result.
     pub fn stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Ends the study within a step, with what was found so far as its result.
+    /// Ends the study within a step. What it found so far becomes its result.
     pub fn expire(&self) {
         self.out_of_time.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the time was up.
+    /// Whether the time is up.
     pub fn expired(&self) -> bool {
         self.out_of_time.load(Ordering::Relaxed)
     }
 
-    /// Pieces of work done, and those expected as far as is known: a check of a shot, a sample, a launch margin, a minimum of a
-    /// fit.
+    /// Pieces of work done, and pieces expected as far as known. A piece is a check of a shot, a sample, a launch margin, or a
+    /// minimum of a fit.
     pub fn counts(&self) -> (usize, usize) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }
 
-    /// How far the study is.
+    /// Progress of the study.
     pub fn progress(&self) -> Progress {
         self.parts.progress(self.counts())
     }
@@ -72,39 +72,39 @@ impl StudyControl {
         done.saturating_sub(self.journal.recalled()) as f64 / done.max(1) as f64
     }
 
-    /// Says how many steps the study has: its outermost [parts](Self::part).
+    /// Sets the number of steps of the study: its outermost [parts](Self::part).
     pub fn has_steps(&self, steps: usize) {
         self.parts.has_steps(steps);
     }
 
-    /// A part of the study, which ends when it is dropped; it takes this share of what is left of the part around it.
+    /// Begins a part of the study. It takes this share of the rest of the part around it, and ends when it is dropped.
     #[must_use]
     pub fn part(&self, share_of_rest: f64) -> Part<'_> {
         Part(self.parts.begin(share_of_rest, self.counts()).then_some(self))
     }
 
-    /// A batch, whose jobs have no parts, until it is dropped.
+    /// Begins a batch, which ends when it is dropped. Jobs of a batch have no parts.
     pub(in crate::study) fn batch(&self) -> Batch<'_> {
         self.parts.begin_batch();
         Batch(self)
     }
 
-    /// Says what is being judged, by name: no verdict on it is known yet.
+    /// Notes the name of what is being judged. No verdict on it is known yet.
     pub(in crate::study) fn note_trying(&self, name: String) {
         self.parts.note_trying(name);
     }
 
-    /// Says what was tried: its place, and the share of a limit that its shots use at most.
+    /// Notes a trial: its place, and the greatest utilization of its shots.
     pub(in crate::study) fn note_tried(&self, place: f64, share: f64) {
         self.parts.note_tried(place, share);
     }
 
-    /// Says of the shots that were drawn at a place how much of a limit all but the accepted share use at most.
+    /// Notes the sampled shots at a place: their greatest utilization, with the accepted share at the top left out.
     pub(in crate::study) fn note_sampled(&self, place: f64, share: f64) {
         self.parts.note_sampled(place, share);
     }
 
-    /// Says what was found, by name: the least score so far is the best.
+    /// Notes a result by its score and name. The result with the least score so far is the best.
     pub(in crate::study) fn note_found(&self, score: f64, name: impl FnOnce() -> String) {
         self.parts.note_found(score, name);
     }
@@ -124,12 +124,12 @@ impl StudyControl {
         self.done.fetch_add(pieces, Ordering::Relaxed);
     }
 
-    /// Whether a run goes on: every run of a study asks at each step, and hands its failure to [`Self::no_result`].
+    /// Whether a run goes on. Every run of a study asks this at each step, and passes its failure to [`Self::no_result`].
     pub fn keep_going(&self) -> ControlFlow<()> {
         if self.stopped() || self.expired() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Why a run of this study has no result: a run that was ended has no failure of its own.
+    /// Why a run of this study has no result. A run that was ended has no failure of its own.
     pub fn no_result(&self, failure: RunError) -> NoResult {
         match failure {
             RunError::Stopped { .. } if self.stopped() => NoResult::Stopped,
@@ -139,7 +139,7 @@ impl StudyControl {
     }
 }
 
-/// A part of a study under way.
+/// A part of a study in progress.
 #[derive(Debug)]
 pub struct Part<'c>(Option<&'c StudyControl>);
 
@@ -151,7 +151,7 @@ impl Drop for Part<'_> {
     }
 }
 
-/// A batch under way.
+/// A batch in progress.
 #[derive(Debug)]
 pub(in crate::study) struct Batch<'c>(&'c StudyControl);
 
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(control.progress().trying.as_deref(), Some("20 ms"));
     }
 
-    /// What a study says of itself is told as it said it; of equal scores the first is the best, and no more points are kept than are drawn.
+    /// The progress reports what a study notes. Of equal scores the first is the best. No more points are kept than are drawn.
     #[test]
     fn what_a_study_says_is_told() {
         let control = StudyControl::default();
@@ -207,7 +207,7 @@ mod tests {
         assert_eq!(progress.sampled, [(7.0, 0.25)]);
     }
 
-    /// A run that was ended has no failure of its own: the study was stopped, or its time was up. Any other failure stays.
+    /// A run that was ended has no failure of its own: either the study was stopped, or its time was up. Any other failure stays.
     #[test]
     fn a_run_goes_on_until_its_study_ends() {
         let [runs, stopped, expired] = [(); 3].map(|()| StudyControl::default());
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(expired.no_result(cut), NoResult::OutOfTime);
     }
 
-    /// Of four pieces done one was known before.
+    /// Of four pieces done, one was known before.
     #[test]
     fn what_was_recalled_was_not_computed() {
         let known = HashMap::from([(Fingerprint::of(1), Box::from("7"))]);
