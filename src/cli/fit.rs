@@ -20,7 +20,7 @@ use crate::plan::write_fit::{self, LaunchUncertainty};
 use crate::report::answer::why_held;
 use crate::report::fit::{not_writable, refusal, report_of_next};
 use crate::study::fit::what_next::{WhatNext, next_observation_of_all};
-use crate::study::fit::{self, ComparedWithSeen, Fit, FitResult, observable_names};
+use crate::study::fit::{self, ComparedWithObservations, Fit, FitResult, observable_names};
 use crate::study::observed::objection::compare_record;
 use crate::study::question::{Found, Question};
 use crate::study::samples::sample_count::Sampling;
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         return failed(&NoResult::Stopped);
     }
     let Found::Fit(compared) = &answered.found else { return Ok(Status::Wrong) };
-    let ComparedWithSeen { fitted: Some(fitted), new: files, .. } = &compared.value else {
+    let ComparedWithObservations { fitted: Some(fitted), new: files, .. } = &compared.value else {
         return Ok(Status::Wrong);
     };
     let case = &answered.case;

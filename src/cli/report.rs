@@ -130,10 +130,10 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
     let why = unreadable.unwrap_or(NotCompared::InRecord);
     let unread = is_unread.then_some(why);
     let taken_back = record_before.is_fitted_to_withdrawn(&case.plan).then_some(NotCompared::TakenBack);
-    let compared = found.compared(&case, &question.observed).beside(record_before.other_blasts());
+    let compared = found.compared(&case, &question.observed).with_other_blasts(record_before.other_blasts());
     let given = files_of(&arguments.observed).unwrap_or_default();
     let films = names_of_films_not_given(plan, &given);
-    let compared = compared.except(taken_back).except(unread).without(films);
+    let compared = compared.with_not_compared(taken_back).with_not_compared(unread).with_unread_films(films);
     let standing = standing_now(&case, compared);
     let results = &found.judged.value.results;
     let rows = observed_rows(&case, &found.seen.list, found.predictions.as_deref().unwrap_or_default());

@@ -142,7 +142,7 @@ impl Plan {
     /// Inputs of `[uncertainty]` that the plan states as exact, or nearly: by a 0, a range of one value, or less than half of the small
     /// default. An input of [`SELDOM_SMALL`] is nearly exact up to the whole small default. The launch in common is not included: see
     /// [`Self::takes_launch_as_too_sure`].
-    pub fn taken_as_exact(&self) -> Vec<&'static str> {
+    pub fn nearly_exact_inputs(&self) -> Vec<&'static str> {
         let is_input = |key: &Key| {
             OF_INPUTS.iter().any(|input| input.name == key.name)
                 && key.name != uncertainty::LAUNCH_COMMON_PERCENT.name

@@ -21,7 +21,7 @@ pub struct Unusual {
     /// Least and greatest usual value.
     pub usual: [f64; 2],
     /// Whether the value is the time between two firing times of the key.
-    pub is_apart: bool,
+    pub is_gap: bool,
 }
 
 impl Plan {
@@ -35,12 +35,12 @@ impl Plan {
     pub fn unusual(&self) -> Vec<Unusual> {
         let all = self.with_usual_ranges().into_iter();
         let out = all.filter_map(|(section, key, values)| farthest_out(section, key, &values));
-        let apart = self.odd_apart_ms().map(|value| Unusual {
+        let apart = self.shortest_unusual_gap_ms().map(|value| Unusual {
             section: &delay::SECTION,
             key: &delay::AT_MS,
             value,
             usual: USUAL_APART_MS,
-            is_apart: true,
+            is_gap: true,
         });
         let out = out.chain(apart);
         // A range around an unusual value says nothing new.
@@ -49,7 +49,7 @@ impl Plan {
 
     /// Shortest time [ms] between rows with listed firing times, if it is below the usual range, or if all such times of its option are
     /// short.
-    fn odd_apart_ms(&self) -> Option<f64> {
+    fn shortest_unusual_gap_ms(&self) -> Option<f64> {
         let listed = self.delays.iter().filter(|delay| matches!(delay.timing, Timing::At(_)));
         let of_option = listed.filter_map(|delay| {
             let mut fire_at = delay.timing.fire_at();
@@ -191,7 +191,7 @@ fn farthest_out(section: &'static Section, key: &'static Key, values: &[f64]) ->
     let usual @ [low, high] = key.usual?;
     let out = |value: &f64| (low - value).max(value - high);
     let value = *values.iter().max_by(|a, b| out(a).total_cmp(&out(b)))?;
-    (out(&value) > 0.0).then_some(Unusual { section, key, value, usual, is_apart: false })
+    (out(&value) > 0.0).then_some(Unusual { section, key, value, usual, is_gap: false })
 }
 
 #[cfg(test)]

@@ -41,9 +41,9 @@ with_questions!(declare_answer);
 
 /// The report of an answer, worded as if its passes stood. Nobody reads the report without the standing of its plan.
 #[derive(Clone, Debug)]
-pub struct Unheld(Report);
+pub struct ReportAsIfStanding(Report);
 
-impl Unheld {
+impl ReportAsIfStanding {
     /// Words the answer `found`.
     pub fn of(case: &Case, found: &Found) -> Self {
         let mut report = worded(case, found);
@@ -98,7 +98,7 @@ fn tells_a_pass(report: &Report) -> bool {
 
 /// The report of an answer under the standing of its plan, with what speaks against the plan.
 pub fn answer(case: &Case, standing: &Standing, found: &Found) -> Report {
-    let report = Unheld::of(case, found).under(standing, found).into_owned();
+    let report = ReportAsIfStanding::of(case, found).under(standing, found).into_owned();
     with_objections(report, case, standing)
 }
 
@@ -190,7 +190,7 @@ pub fn take_passes_back(report: &mut Report) {
 mod tests {
     use super::*;
     use crate::report::parts::{Column, Conclusion, Fact, Offer, Row, Table, advice, fact};
-    use crate::study::fit::ComparedWithSeen;
+    use crate::study::fit::ComparedWithObservations;
     use crate::study::fit::observed_shots::ObservedShots;
     use crate::study::observed::{Comparison, NotCompared};
     use crate::study::standing::tests::case;
@@ -275,7 +275,7 @@ mod tests {
     /// A report that compares observations keeps its words, but nothing in it passes.
     #[test]
     fn a_comparison_of_a_plan_on_hold_keeps_its_words() {
-        let compared = ComparedWithSeen {
+        let compared = ComparedWithObservations {
             fitted: None,
             new: Vec::new(),
             files: Vec::new(),
@@ -284,7 +284,7 @@ mod tests {
             is_sampled: false,
         };
         let found = Found::Fit(Box::new(Computed::complete(compared)));
-        let unheld = Unheld(report());
+        let unheld = ReportAsIfStanding(report());
         let [stands, changed] = [FileState::AsJudged, FileState::Changed]
             .map(|file| Standing::of(&case(), file, Comparison::nothing_seen()));
         assert_eq!(*unheld.under(&stands, &found), report());
@@ -339,9 +339,9 @@ mod tests {
     #[test]
     fn what_is_concluded_of_options_has_no_other_label() {
         let word = report().conclusion.map(|conclusion| conclusion.word);
-        assert_eq!(Unheld(report()).concluded(), word);
+        assert_eq!(ReportAsIfStanding(report()).concluded(), word);
         let mut labelled = report();
         labelled.conclusion.as_mut().expect("one").label = Some("Done");
-        assert_eq!(Unheld(labelled).concluded(), None);
+        assert_eq!(ReportAsIfStanding(labelled).concluded(), None);
     }
 }

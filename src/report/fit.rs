@@ -2,7 +2,7 @@
 
 use super::brief::Brief;
 use super::observed::{
-    ObservedRow, bands, counted_twice, fitted_rows, heads_table, observed_rows, observed_table, place,
+    ObservedRow, bands, fitted_rows, heads_table, observed_rows, observed_table, perhaps_one_shot, place,
     remarks, seen_and_predicted,
 };
 use super::parts::{Audience, Block, Cell, Column, Conclusion, Fact, Field, Report, Table, fact};
@@ -18,7 +18,7 @@ use crate::study::fit::observation_bands::NextObservation;
 use crate::study::fit::parameter::Parameter;
 use crate::study::fit::what_next::WhatNext;
 use crate::study::fit::{
-    Answer, ComparedWithSeen, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
+    Answer, ComparedWithObservations, Fit, FitResult, FittedParameter, NotDetermined, Observable, Residual,
 };
 use crate::study::observed::contradiction::count_within;
 use crate::study::observed::other_shot::other_shots;
@@ -139,7 +139,7 @@ pub fn report_of_fit(case: &Case, files: &[Observations], fit: &Fit, sampled: bo
         warnings(case, files, fit)
             .into_iter()
             .chain(fitted_before(case))
-            .chain(counted_twice(&files.iter().collect::<Vec<_>>()))
+            .chain(perhaps_one_shot(&files.iter().collect::<Vec<_>>()))
             .chain(remarks(files))
             .chain(perhaps_others),
     );
@@ -248,7 +248,7 @@ const FAR_MOVE: f64 = 1.5;
 fn warnings(case: &Case, files: &[Observations], fit: &Fit) -> Vec<String> {
     let best = &fit.answers[0];
     let mut warnings = Vec::new();
-    if !best.is_settled {
+    if !best.is_converged {
         warnings.push(not_writable(case, &NotWritable::NotSettled));
     }
     for estimate in &best.estimates {
@@ -416,8 +416,8 @@ pub fn refusal(case: &Case, found: &FitResult) -> Option<String> {
 }
 
 /// The report of a fit beside what the plan says, and of the observations that the plan was fitted to.
-pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithSeen>) -> Report {
-    let ComparedWithSeen { fitted, new, files, seen, is_sampled, .. } = compared;
+pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedWithObservations>) -> Report {
+    let ComparedWithObservations { fitted, new, files, seen, is_sampled, .. } = compared;
     let mut report = match fitted {
         Some(FitResult::Fitted(fit)) => report_of_fit(case, new, fit, *is_sampled),
         Some(refused) => report_of_refusal(case, refused),
@@ -434,12 +434,12 @@ pub fn report(case: &Case, Computed { value: compared, .. }: &Computed<ComparedW
 }
 
 /// Rows of the observations beside what the plan predicts of them.
-pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithSeen) -> Vec<ObservedRow<'a>> {
+pub fn compared_rows<'a>(case: &'a Case, compared: &'a ComparedWithObservations) -> Vec<ObservedRow<'a>> {
     observed_rows(case, &compared.seen.list, &compared.predictions)
 }
 
 /// Whether the observations agree with the plan, in one line.
-pub fn in_brief(case: &Case, compared: &Computed<ComparedWithSeen>) -> Brief {
+pub fn in_brief(case: &Case, compared: &Computed<ComparedWithObservations>) -> Brief {
     let agrees = compared.value.objections(case).is_empty();
     let text = if agrees { "agrees with this plan" } else { "contradicts this plan" };
     let texts = vec![format!("what was seen {text}"), text.to_owned()];

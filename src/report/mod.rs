@@ -95,7 +95,7 @@ fn report_head(case: &Case, schema: &'static str, sampled: bool) -> Report {
     facts += &accepted_risk(case, sampled);
     let mut warnings = plan_warnings::of_plan(case);
     // Planned shots alone vary nothing, so this warning does not apply.
-    warnings.extend(sampled.then(|| plan_warnings::taken_as_exact(case)).flatten());
+    warnings.extend(sampled.then(|| plan_warnings::nearly_exact_inputs(case)).flatten());
     Report {
         schema,
         title: title(case),

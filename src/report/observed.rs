@@ -120,7 +120,7 @@ pub fn remarks(files: &[Observations]) -> impl Iterator<Item = String> {
 
 /// Warnings that two files may hold one shot, which makes the launch look surer than it is. The files have nearly the same values,
 /// or they observe the same option and one of them states no day.
-pub fn counted_twice(files: &[&Observations]) -> impl Iterator<Item = String> + use<> {
+pub fn perhaps_one_shot(files: &[&Observations]) -> impl Iterator<Item = String> + use<> {
     let of_one_option = |a: &Observations, b: &Observations| {
         a.list.iter().any(|seen| b.list.iter().any(|other| other.option == seen.option))
     };

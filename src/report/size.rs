@@ -129,7 +129,7 @@ pub fn report(case: &Case, Computed { value: sizing, .. }: &Computed<Sizing>) ->
     let with_lightest = lightest.as_ref().and_then(|(found, _)| with_sizes(case, found));
     let warned = with_lightest.as_ref().unwrap_or(case);
     let mut warnings = plan_warnings::of_plan(warned);
-    warnings.extend(plan_warnings::taken_as_exact(warned));
+    warnings.extend(plan_warnings::nearly_exact_inputs(warned));
     warnings.extend(
         lightest.as_ref().and_then(|(_, trial)| warnings::uncovered_shot("the lightest", &trial.worst)),
     );

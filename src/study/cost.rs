@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::Case;
 use super::as_planned::check::CheckedShot;
 use super::judge::Judgement;
-use super::judge::one_dud::runs_of_duds;
+use super::judge::one_dud::expected_dud_samples;
 use super::samples::run_sample::steps_of_sample;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::{RISK_OF_USUAL, USUAL_OF_PASS};
@@ -37,7 +37,7 @@ pub fn runs_to_come(case: &Case, shot: &Shot, judged: Option<&Judgement>) -> usi
         return least.saturating_sub(drawn) + duds;
     }
     if duds > 0 {
-        duds += runs_of_duds(case, shot);
+        duds += expected_dud_samples(case, shot);
     }
     // The second option shares the error probability with the first, so it takes more draws.
     let fresh = if case.shots.len() > 1 { usual + usual / 2 } else { 0 };

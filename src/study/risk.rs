@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::judge::OptionResults;
-use super::judge::one_dud::runs_of_duds;
+use super::judge::one_dud::expected_dud_samples;
 use super::samples::run_sample::ShotToSample;
 use super::samples::sample_count::Sampling;
 use super::samples::sample_until_sure::run_shard;
@@ -43,7 +43,7 @@ impl Study for Question {
 
     fn expected_runs(case: &Case) -> Option<usize> {
         let most = Sampling::OF_RISK.most;
-        Some(case.shots.iter().map(|shot| most + runs_of_duds(case, shot)).sum())
+        Some(case.shots.iter().map(|shot| most + expected_dud_samples(case, shot)).sum())
     }
 
     fn usual(_case: &Case, _about: Subject) -> Self {

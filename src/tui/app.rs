@@ -183,7 +183,7 @@ pub struct App {
     /// Name of the file that another program has changed and that the user then left for another name. Two plans of one shot exist now.
     pub left_file: Option<String>,
     /// Whether the other plan on the screen has observations that this one lacks.
-    pub seen_beside: bool,
+    pub other_plan_has_more_observations: bool,
     /// Whether the user was warned that quitting drops unsaved changes. The next request quits.
     pub quit_warned: bool,
     /// Why the last request for a page was refused.
@@ -195,7 +195,7 @@ pub struct App {
 /// Why a question about an option is refused before the option is judged.
 pub(super) const NOT_JUDGED_YET: &str = "the option is not judged yet: more samples come";
 /// Why the screen does not say yet how far a pass holds.
-pub(super) const HOLDS_SOUGHT: &str = "what it holds until is still being found";
+pub(super) const ASSUMPTIONS_STILL_SOUGHT: &str = "what it holds until is still being found";
 /// Why no change is made while the changes are still computed.
 pub(super) const STILL_LOOKED_FOR: &str = "the changes are still being looked for";
 
@@ -251,7 +251,7 @@ impl App {
             notice: None,
             file_is_newer: false,
             left_file: None,
-            seen_beside: false,
+            other_plan_has_more_observations: false,
             quit_warned: false,
             page_refused: None,
             page_warned: None,
@@ -288,7 +288,7 @@ impl App {
     }
 
     /// Progress of the search for the assumptions of an option's pass, 0 to 1. `None` unless this option is the next to be finished.
-    pub fn held_until_share(&self, option: usize) -> Option<f64> {
+    pub fn assumption_search_progress(&self, option: usize) -> Option<f64> {
         let is_known = |option: usize| self.stands_on(option).is_some();
         // Same order as the search: the recommended option first.
         let next = self.recommended().into_iter().chain(self.passing()).find(|option| !is_known(*option));

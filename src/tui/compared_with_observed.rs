@@ -12,7 +12,7 @@ use crate::report::parts::Report;
 use crate::report::words::headline::Headline;
 use crate::report::words::to_be_confirmed::{ToConfirm, is_anything_to_be_confirmed, to_be_confirmed};
 use crate::study::FileState;
-use crate::study::fit::ComparedWithSeen;
+use crate::study::fit::ComparedWithObservations;
 use crate::study::observed::{Comparison, NotCompared};
 use crate::study::question::{Found, StudyKind};
 use crate::study::standing::Standing;
@@ -21,7 +21,7 @@ use crate::verdict::{Verdict, VerdictWord};
 
 impl App {
     /// The comparison of the plan on the screen with the observations, if a fit has finished.
-    pub fn compared_with_observed(&self) -> Option<&ComparedWithSeen> {
+    pub fn compared_with_observed(&self) -> Option<&ComparedWithObservations> {
         match &self.studies.finished(StudyKind::Fit)?.found {
             Found::Fit(compared) => Some(&compared.value),
             _ => None,
@@ -42,13 +42,13 @@ impl App {
     fn comparison(&self) -> Comparison {
         let fit = self.studies.finished(StudyKind::Fit).and_then(|fit| fit.compared.clone());
         // Two plans side by side are of one site, so the observations of one count against the other.
-        let is_missing = fit.is_none() && !self.record.is_empty() || self.seen_beside;
+        let is_missing = fit.is_none() && !self.record.is_empty() || self.other_plan_has_more_observations;
         let taken_back = self.record.is_fitted_to_withdrawn(&self.case.plan);
         let compared = fit.unwrap_or_else(Comparison::nothing_seen);
         compared
-            .beside(self.record.other_blasts())
-            .except(taken_back.then_some(NotCompared::TakenBack))
-            .except(is_missing.then_some(NotCompared::NotYet))
+            .with_other_blasts(self.record.other_blasts())
+            .with_not_compared(taken_back.then_some(NotCompared::TakenBack))
+            .with_not_compared(is_missing.then_some(NotCompared::NotYet))
     }
 
     /// The standing of the plan on the screen: what speaks against its passes.
@@ -65,7 +65,7 @@ impl App {
     pub fn standing_now(&self) -> Standing {
         let given = self.record.read(&self.case).unwrap_or_default().into_iter().map(|file| file.path.into());
         let films = names_of_films_not_given(&self.case.source.path, &given.collect::<Vec<PathBuf>>());
-        let compared = self.comparison().without(films);
+        let compared = self.comparison().with_unread_films(films);
         Standing::of(&self.case, FileState::now(&self.case.source), compared)
     }
 
@@ -186,7 +186,7 @@ mod tests {
         let predictions =
             vec![Prediction { planned: 1.7, band: Some([1.6, 1.8]), middle: 1.7, ..Prediction::default() }];
         let new = Vec::new();
-        let compared = ComparedWithSeen { fitted, new, files, seen, predictions, is_sampled: true };
+        let compared = ComparedWithObservations { fitted, new, files, seen, predictions, is_sampled: true };
         let found = Found::Fit(Box::new(Computed::complete(compared)));
         let shown = ShownStudy::new(&app.case, app.compute, found);
         app.studies.set(StudyKind::Fit, StudyState::Done(Arc::new(shown)));
@@ -216,9 +216,9 @@ mod tests {
         );
         compare(&mut app, 1.7, None);
         assert!(!is_held(&app) && app.compared_with_observed().is_some() && app.seen_rows().len() == 1);
-        app.seen_beside = true;
+        app.other_plan_has_more_observations = true;
         assert!(is_held(&app), "the plan beside has more that was seen");
-        app.seen_beside = false;
+        app.other_plan_has_more_observations = false;
         compare(&mut app, 2.2, None);
         assert!(is_held(&app), "it contradicts");
         app.record = Default::default();
@@ -263,11 +263,11 @@ mod tests {
         assert!(!app.has_estimates(), "no fit");
         compare(&mut app, 1.7, None);
         assert!(!app.has_estimates(), "a comparison alone");
-        for is_settled in [true, false] {
-            let answers = vec![Answer { is_settled, ..Answer::default() }];
+        for is_converged in [true, false] {
+            let answers = vec![Answer { is_converged, ..Answer::default() }];
             let fit = Fit { answers, ..Fit::default() };
             compare(&mut app, 1.7, Some(FitResult::Fitted(fit)));
-            assert_eq!(app.has_estimates(), is_settled);
+            assert_eq!(app.has_estimates(), is_converged);
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::app::{App, HOLDS_SOUGHT, NOT_JUDGED_YET, STILL_LOOKED_FOR};
+use super::app::{ASSUMPTIONS_STILL_SOUGHT, App, NOT_JUDGED_YET, STILL_LOOKED_FOR};
 use super::compare::{OptionState, results};
 use super::screen::Screen;
 use super::studies::{ShownStudy, StudyState};
@@ -60,7 +60,7 @@ impl App {
     /// Selects the recommended option, unless the user has selected an option or the screen shows results of another option.
     pub(super) fn select_recommended(&mut self) {
         let best = self.recommended();
-        if let Some(best) = best.filter(|_| !self.has_selected && !self.shows_found_of_selected()) {
+        if let Some(best) = best.filter(|_| !self.has_selected && !self.shows_result_of_selected()) {
             self.selected = best;
         }
     }
@@ -90,7 +90,7 @@ impl App {
     }
 
     /// Whether the screen shows results of the selected option alone.
-    fn shows_found_of_selected(&self) -> bool {
+    fn shows_result_of_selected(&self) -> bool {
         let found = |kind| self.studies.finished(kind).map(|finished| &finished.found);
         match self.screen {
             Screen::Plan | Screen::Compare => false,
@@ -130,7 +130,7 @@ impl App {
         self.notice.take_if(|said| {
             is_judged && said == NOT_JUDGED_YET
                 || is_found && said == STILL_LOOKED_FOR
-                || is_held_until && said.ends_with(HOLDS_SOUGHT)
+                || is_held_until && said.ends_with(ASSUMPTIONS_STILL_SOUGHT)
         });
         // A page was refused because this was not known yet.
         if is_judged && (is_held_until || self.verdict(self.selected) != Verdict::Pass) {
@@ -142,7 +142,7 @@ impl App {
         } else if tells_samples
             && self.answer.is_none()
             && !self.has_selected
-            && !self.shows_found_of_selected()
+            && !self.shows_result_of_selected()
         {
             // The cursor and the charts follow the option that the headline names.
             self.selected = self.ahead().unwrap_or(self.selected);

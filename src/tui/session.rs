@@ -276,7 +276,7 @@ impl Session {
         }
         let there = plan.file.as_ref().and_then(|file| plan.keeper.record_file.changed(file.path()));
         if let Some(there) = there {
-            let request = app.join_seen(there);
+            let request = app.merge_record(there);
             self.carry_out(request);
             return true;
         }

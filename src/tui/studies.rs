@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::study_answer::StudyAnswer;
 use crate::jobs::StudyAt;
 use crate::plan::observations::Observations;
-use crate::report::answer::{Unheld, in_brief};
+use crate::report::answer::{ReportAsIfStanding, in_brief};
 use crate::report::fit::not_writable;
 use crate::study::effects::EffectsOnOptions;
 use crate::study::fit::{Fit, FitResult};
@@ -39,7 +39,7 @@ pub struct ShownStudy {
     /// The settings of the computation.
     pub compute: ComputeSettings,
     /// The report of the result. The standing of the plan is added when it is drawn.
-    pub report: Unheld,
+    pub report: ReportAsIfStanding,
     /// The answer in one line.
     pub answer: StudyAnswer,
     /// How the plan agrees with the observations of earlier shots, if this study compares them.
@@ -49,7 +49,7 @@ pub struct ShownStudy {
 impl ShownStudy {
     /// Makes report and answer of a result.
     pub fn new(case: &Case, compute: ComputeSettings, found: Found) -> Self {
-        let report = Unheld::of(case, &found);
+        let report = ReportAsIfStanding::of(case, &found);
         let compared = match &found {
             Found::Fit(compared) => Some(compared.value.comparison(case)),
             _ => None,

@@ -121,7 +121,8 @@ impl App {
         let Some(mut other) = self.beside.take() else { return };
         other.screen = self.screen;
         let [here, there] = [&self.record, &other.record];
-        (self.seen_beside, other.seen_beside) = (!there.is_within(here), !here.is_within(there));
+        (self.other_plan_has_more_observations, other.other_plan_has_more_observations) =
+            (!there.is_within(here), !here.is_within(there));
         other.zoom = self.zoom;
         other.help = self.help;
         other.help_scroll = self.help_scroll;

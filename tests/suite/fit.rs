@@ -103,7 +103,7 @@ fn estimates_that_are_no_answer_go_into_no_plan() {
         fit.not_writable(&case, &[])
     };
     assert_eq!(why(|_| {}), None);
-    assert_eq!(why(|fit| fit.answers[0].is_settled = false), Some(NotWritable::NotSettled));
+    assert_eq!(why(|fit| fit.answers[0].is_converged = false), Some(NotWritable::NotSettled));
     assert_eq!(why(|fit| fit.answers[0].estimates[0].is_at_end = true), Some(NotWritable::AtEnd));
     assert_eq!(why(|fit| fit.answers.push(fit.answers[0].clone())), Some(NotWritable::SeveralAnswers(2)));
     let far = why(|fit| (fit.answers[0].freedom, fit.answers[0].chi_square) = (1, 100.0));

@@ -21,7 +21,7 @@ use shelter::study::as_planned::margin::LaunchMargin;
 use shelter::study::assumptions::assumed::Assumed;
 use shelter::study::assumptions::{Assumption, Assumptions};
 use shelter::study::check::JudgedPlan;
-use shelter::study::fit::ComparedWithSeen;
+use shelter::study::fit::ComparedWithObservations;
 use shelter::study::fit::observation_bands::Prediction;
 use shelter::study::fit::observed_shots::ObservedShots;
 use shelter::study::fit::{self, FitResult};
@@ -371,7 +371,7 @@ fn enter_on_fit_takes_the_next_observation() {
     app.selected = 4;
     assert_eq!(app.record.add_line(&app.case, 4, "3:1 1.95 0.05"), Ok(()));
     let compared =
-        ComparedWithSeen { fitted: Some(FitResult::KnownExactly(Unknown::Launch)), ..nothing_seen() };
+        ComparedWithObservations { fitted: Some(FitResult::KnownExactly(Unknown::Launch)), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     assert!(!app.studies.open);
     key(&mut app, KeyCode::Enter);
@@ -527,8 +527,10 @@ fn a_shot_under_other_tires_holds_the_verdicts() {
     assert!(app.standing().compared().agrees());
     let seen = "# cover: 560 kg tires\noption,tire,quantity,value,sd\n42 ms,3:1,flight_height_m,1.7,0.05\n";
     assert_eq!(app.record.add_file(&app.case, "seen.csv", seen, "2026-11-26"), Ok(()));
-    let compared =
-        ComparedWithSeen { files: app.record.read(&app.case).expect("observations"), ..nothing_seen() };
+    let compared = ComparedWithObservations {
+        files: app.record.read(&app.case).expect("observations"),
+        ..nothing_seen()
+    };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     let told = sentences(&app.case, app.standing().compared());
     assert!(
@@ -631,7 +633,7 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
     let agrees = |app: &App| text(&draw(app, 120, 36)).contains("the one value seen agrees: it tells little");
     assert!(!agrees(&app));
     let files = app.record.read(&case).expect("observations");
-    let compared = ComparedWithSeen { files: files.clone(), ..nothing_seen() };
+    let compared = ComparedWithObservations { files: files.clone(), ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(compared)))));
     for screen in "12345".chars() {
         press(&mut app, &screen.to_string());
@@ -640,7 +642,8 @@ fn what_was_seen_and_agrees_is_said_on_every_screen() {
     // Outside its band, and not so far that chance makes it in 1 of 20 cases only: it does not agree, nor does it hold the plan.
     let predictions =
         vec![Prediction { planned: 1.5, band: Some([1.4, 1.69]), middle: 1.55, ..Prediction::default() }];
-    let outside = ComparedWithSeen { seen: ObservedShots::new(&files), files, predictions, ..nothing_seen() };
+    let outside =
+        ComparedWithObservations { seen: ObservedShots::new(&files), files, predictions, ..nothing_seen() };
     study_ends(&mut app, StudyKind::Fit, Ok(Found::Fit(Box::new(Computed::complete(outside)))));
     let screen = text(&draw(&app, 120, 36));
     assert!(screen.contains("the one value seen lies outside what is predicted: fit (4)"), "{screen}");

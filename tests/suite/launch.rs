@@ -8,7 +8,7 @@ use shelter::plan::PlanSource;
 use shelter::plan::observations::Observations;
 use shelter::study::fit::between_shots::BetweenShotsSource;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{ComparedWithSeen, Fit, FitResult, fit, observable_names};
+use shelter::study::fit::{ComparedWithObservations, Fit, FitResult, fit, observable_names};
 use shelter::study::{Case, ComputeSettings, Computed, Context, StudyControl};
 use shelter::{Sampling, Verdict, choice::Unknown};
 
@@ -169,7 +169,7 @@ fn a_shot_typed_again_and_a_log_against_the_plan_are_told() {
     let told = |files: &[Observations]| {
         let fit = fit_of(&case, files);
         let predictions = fit.predictions.clone();
-        let compared = ComparedWithSeen {
+        let compared = ComparedWithObservations {
             fitted: Some(FitResult::Fitted(fit)),
             new: files.to_vec(),
             files: files.to_vec(),

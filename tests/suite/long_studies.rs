@@ -169,7 +169,7 @@ fn merged_shards_are_compared_with_what_was_seen() {
     let elsewhere = tempfile::tempdir().expect("a folder");
     let (status, told) = merge(elsewhere.path());
     assert_eq!(status, Some(1), "{told}");
-    assert!(told.contains("lies beside the plan, which is not here"), "{told}");
+    assert!(told.contains("lie beside the plan, which is not here"), "{told}");
 }
 
 #[test]

@@ -324,7 +324,7 @@ fn shards_of_a_plan_that_has_changed_since_recommend_nothing() {
         let gone = shelter(&["merge", file]);
         let alone = support::text(&gone.stdout);
         assert!(alone.contains("plan.toml is not here"), "{alone}");
-        assert!(alone.contains("lies beside the plan, which is not here"), "{alone}");
+        assert!(alone.contains("lie beside the plan, which is not here"), "{alone}");
         assert!(alone.lines().last().is_some_and(|last| last.starts_with("HOLD")), "{alone}");
         assert_eq!(gone.status.code(), Some(1));
     }

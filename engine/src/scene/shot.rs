@@ -39,7 +39,7 @@ pub struct Firing {
 /// Everything in a firing that decides the verdict on a planned or sampled shot, except the blast row. The blast row counts, too,
 /// because its launches vary together: compare causes row by row. Two causes are equal if all their bits are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Cause {
+pub struct FiringNumbers {
     tire: usize,
     numbers: [u64; 11],
 }
@@ -112,14 +112,14 @@ impl Firing {
     }
 
     /// Everything in the firing that decides a verdict.
-    pub fn cause(&self) -> Cause {
+    pub fn cause(&self) -> FiringNumbers {
         let Self { time, tire, launch, push_time, charge, line: PushLine { offset, tilt, depth }, .. } =
             *self;
         let depth = depth.unwrap_or(f64::INFINITY);
         let [x, y, z] = launch.into();
         let numbers = [time, x, y, z, push_time, charge, offset.x, offset.y, tilt.x, tilt.y, depth];
         // 0 and −0 count as one number.
-        Cause { tire, numbers: numbers.map(|number| (number + 0.0).to_bits()) }
+        FiringNumbers { tire, numbers: numbers.map(|number| (number + 0.0).to_bits()) }
     }
 }
 

@@ -7,7 +7,7 @@ use super::columns::Column;
 use super::direction::{Directions, Tilt};
 use super::header::{Columns, REMEDY, with_header, without_header};
 use super::number::{self, Decimals};
-use super::said_units;
+use super::stated_units;
 use super::table::{Line, Table, split};
 use super::unfired;
 use crate::plan::diagnostic::{MOST_KEPT, Mistake};
@@ -120,7 +120,7 @@ pub fn read(source: &str, directions: Directions) -> Result<Holes, Vec<Mistake>>
         list.left_out.push(format!("the columns {}", columns.left_out.join(", ")));
     }
     let comma = decimal_comma(&table, &columns, &mut list.notes)?;
-    let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), said_units::mistakes(&table));
+    let (mut patterns, mut unnamed, mut mistakes) = (Vec::new(), Vec::new(), stated_units::mistakes(&table));
     times_left_out(&table, &columns, &mut mistakes);
     for line in &table.lines[usize::from(table.has_header)..] {
         // A separator at the end of a line adds an empty value.

@@ -5,9 +5,9 @@ mod direction;
 mod header;
 mod holes;
 pub(super) mod number;
-mod said_units;
 #[cfg(feature = "shotplus")]
 mod shotplus;
+mod stated_units;
 pub(super) mod table;
 mod timing;
 mod unfired;

@@ -39,10 +39,11 @@ impl ShotHead {
     fn remark(&mut self, comment: &str) {
         let words = small_words(comment);
         let is_known = |word: &String| {
-            let denies = [NONE, DUD, UNTOLD, FILLING].iter().any(|words| words.contains(&word.as_str()));
+            let denies =
+                [NONE, DUD, BROKE_OR_FLEW, FILLING].iter().any(|words| words.contains(&word.as_str()));
             denies || word.starts_with(|sign: char| sign.is_ascii_digit())
         };
-        let is_denial = words.iter().all(is_known) && names(comment, &[DUD, UNTOLD].concat());
+        let is_denial = words.iter().all(is_known) && names(comment, &[DUD, BROKE_OR_FLEW].concat());
         if !words.is_empty() && !is_denial && !TEMPLATE_COMMENTS.contains(&comment) {
             self.remarks.push(comment.to_owned());
         }
@@ -64,7 +65,7 @@ impl ShotHead {
                 head.dud = Some(duds.collect::<Vec<_>>().join("; "));
                 continue;
             }
-            if tells_the_untold(comment) {
+            if says_it_broke_or_flew(comment) {
                 mistakes.push(Mistake {
                     span,
                     message: format!("no prediction can be compared with `{comment}`"),
@@ -119,7 +120,7 @@ impl ShotHead {
                 mistakes.push(Mistake {
                     span,
                     message: format!("`{name}` is said twice"),
-                    remedy: "say it once: one file tells of one shot; leave out the file's charge where rows differ".to_owned(),
+                    remedy: "say it once: one file says of one shot; leave out the file's charge where rows differ".to_owned(),
                 });
             }
         }
@@ -149,15 +150,15 @@ const DUD: &[&str] = &[
     "dud", "duds", "misfire", "misfires", "misfired", "unfired", "отказ", "отказы", "отказа", "отказов", "versager", "fallido", "fallidos",
 ];
 #[rustfmt::skip]
-const UNTOLD: &[&str] = &[
+const BROKE_OR_FLEW: &[&str] = &[
     "broke", "broken", "snapped", "torn", "tore", "parted", "ruptured", "flyrock", "debris", "fragments", "порван", "порвался", "порвались", "порвало",
     "порвали", "оборван", "оборвался", "оборвались", "оборвало", "лопнул", "лопнула", "лопнули", "лопнуло", "разлет", "осколки",
     "gerissen", "steinflug",
 ];
 /// Words for flying stones; then for ground and stemming, which do not fly; then for a failure, which counts if the comment names a rope.
 #[rustfmt::skip]
-const STONES: &[&str] = &["stone", "stones", "rocks", "камень", "камни", "камней", "куски", "steine"];
-const GROUND: &[&str] =
+const FLYING_STONES: &[&str] = &["stone", "stones", "rocks", "камень", "камни", "камней", "куски", "steine"];
+const STEMMING_OR_GROUND: &[&str] =
     &["stemming", "ground", "rock", "geology", "забойка", "грунт", "порода", "породы", "besatz", "boden"];
 const FAILING: &[&str] = &["failed", "cut", "burst", "riss", "обрыв", "обрыва", "разрыв", "разрыва"];
 const ROPES: &[&str] = &[
@@ -203,7 +204,7 @@ fn names(comment: &str, words: &[&str]) -> bool {
 }
 
 /// Whether a comment says that an event named by these `words` happened: no word before or behind denies the event.
-fn tells(comment: &str, words: &[&str]) -> bool {
+fn says(comment: &str, words: &[&str]) -> bool {
     let said = small_words(comment);
     let said: Vec<&str> = said.iter().map(String::as_str).collect();
     let is_unfilled = comment.trim_end().ends_with([':', '=', '-']);
@@ -222,16 +223,16 @@ fn tells(comment: &str, words: &[&str]) -> bool {
 }
 
 /// Whether a comment says that something broke or flew. No prediction can be compared with such an event.
-fn tells_the_untold(comment: &str) -> bool {
-    let begins = small_words(comment).first().is_some_and(|word| GROUND.contains(&word.as_str()));
-    tells(comment, UNTOLD)
-        || !begins && tells(comment, STONES)
-        || names(comment, ROPES) && tells(comment, FAILING)
+fn says_it_broke_or_flew(comment: &str) -> bool {
+    let begins = small_words(comment).first().is_some_and(|word| STEMMING_OR_GROUND.contains(&word.as_str()));
+    says(comment, BROKE_OR_FLEW)
+        || !begins && says(comment, FLYING_STONES)
+        || names(comment, ROPES) && says(comment, FAILING)
 }
 
 /// The hole that did not fire, in the words of the comment; `None` if the comment names none.
 fn dud_of(comment: &str) -> Option<&str> {
-    match tells(comment, DUD) {
+    match says(comment, DUD) {
         true => Some(comment.split_once([':', '=']).map_or(comment, |(_, behind)| behind.trim())),
         false => comment.to_lowercase().contains("did not fire").then_some(comment),
     }

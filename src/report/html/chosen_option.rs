@@ -25,7 +25,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     let Some(option) = page.to_be_fired else {
         return html! {
             p.chosen { (phrase("No option is chosen to be fired: --option NAME of shelter report chooses one.")) }
-            (seen_otherwise(page))
+            (objections_of_observations(page))
             @for warning in warnings { p { strong { (phrase("Warning: ")) } (warning) } }
         };
     };
@@ -52,7 +52,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
                 p.large { (word(verdict_word)) (only_planned(page)) }
             }
             @if let Some(thin) = thin { p { strong { (say!("The pass is thin: {}.", assumption_words::thin(thin))) } } }
-            (seen_otherwise(page))
+            (objections_of_observations(page))
             @if against.is_some_and(|against| against != Doubt::StandsOnUnknown) {
                 p { strong { (phrase("Do not fire this option as it stands.")) } }
             }
@@ -90,7 +90,7 @@ fn stands_on(page: &Page<'_>, option: usize) -> Option<String> {
 }
 
 /// Why observations of earlier shots let no verdict of the page stand; nothing where the verdicts stand.
-fn seen_otherwise(page: &Page<'_>) -> Markup {
+fn objections_of_observations(page: &Page<'_>) -> Markup {
     html! {
         @let objections = objections::sentences(page.case, page.standing.compared());
         @if !objections.is_empty() {

@@ -98,7 +98,7 @@ fn charge(case: &Case, option: usize) -> Option<String> {
     let shot = &case.shots[option];
     let within = WithinEightMs::of(case, shot).charge?;
     let all: f64 = shot.firings.iter().map(|firing| firing.charge).sum();
-    let [all, heaviest] = [all, within].map(option_sentences::grams);
+    let [all, heaviest] = [all, within].map(option_sentences::kg_to_the_gram);
     Some(say!(
         "{all} kg in all holes, {heaviest} kg within any 8 ms; scaled distance = distance in m / {}",
         all,

@@ -172,7 +172,8 @@ pub fn page(page: &Page<'_>) -> String {
     let assumed =
         to_be_confirmed::marked_as_assumed(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let of_file = objections::of_file(&case.source.name(), page.standing.file()).into_iter().collect();
-    let exact = plan_warnings::taken_as_exact(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
+    let exact =
+        plan_warnings::nearly_exact_inputs(case).filter(|_| to_be_fired.is_none()).into_iter().collect();
     let mut of_plan = [assumed, plan_warnings::of_plan(case), exact].concat();
     let mut of_fired = of_fired.unwrap_or_default();
     if to_be_fired.is_some() {

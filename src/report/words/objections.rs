@@ -51,7 +51,7 @@ fn of_not_compared(why: &NotCompared) -> String {
         NotCompared::RunsFailed => {
             "observations of earlier shots were not compared with the plan: its runs failed"
         }
-        NotCompared::PlannedAlone => {
+        NotCompared::NoSamples => {
             "observations typed in the terminal are not compared with the planned shot alone: judge without --nominal"
         }
         NotCompared::NoPlan => {

@@ -28,7 +28,7 @@ pub const VERDICTS: [&str; 3] = [
 /// The most holes that fire within any 8 ms, and the heaviest charge where the plan names charges: `3 holes, 75 kg`.
 pub fn together(WithinEightMs { holes, charge }: WithinEightMs) -> String {
     let holes = if holes == 1 { say!("1 hole") } else { say!("{holes} holes", holes) };
-    charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", grams(charge)))
+    charge.map_or(holes.clone(), |charge| format!("{holes}, {} kg", kg_to_the_gram(charge)))
 }
 
 /// Firing time of each blast row of an option, and how its holes follow: `1: 0 ms, 2: 42 ms · holes 17 ms left`.
@@ -62,7 +62,7 @@ pub fn percent_range(interval: [f64; 2]) -> String {
 }
 
 /// A sum of charges [kg], rounded to a gram: adding leaves digits that mean nothing.
-pub(in crate::report) fn grams(charge: f64) -> f64 {
+pub(in crate::report) fn kg_to_the_gram(charge: f64) -> f64 {
     (charge * 1e3).round() / 1e3
 }
 

@@ -1,6 +1,6 @@
 //! Why an option does not pass, in words: one sentence per reason, and a few words where a screen has one line for all reasons.
 
-use super::option_sentences::{self, grams, quantity_name};
+use super::option_sentences::{self, kg_to_the_gram, quantity_name};
 use crate::choice::Accuracy;
 use crate::report::language::{phrase, say};
 use crate::report::parts::Detail;
@@ -115,8 +115,8 @@ fn of_shot(reason: &ShotReason) -> ReasonWords {
         }
         ShotReason::ChargeTogether { charge, limit } => {
             return ReasonWords::new(
-                format!("{} kg fire within 8 ms, limit {limit} kg", grams(*charge)),
-                say!("{} kg fire within 8 ms, the limit is {limit} kg", grams(*charge), limit),
+                format!("{} kg fire within 8 ms, limit {limit} kg", kg_to_the_gram(*charge)),
+                say!("{} kg fire within 8 ms, the limit is {limit} kg", kg_to_the_gram(*charge), limit),
             );
         }
         ShotReason::UnderNoTire(holes) => {
@@ -268,7 +268,7 @@ fn limits_exceeded(case: &Case, sampled: &SampledShot) -> String {
         let past = sampled.samples.iter().filter(|sample| is_past(sample.finest(), quantity, limit)).count();
         (past > 0).then(|| format!("{} {past}", quantity_name(quantity).0))
     };
-    let broken = sampled.samples.iter().filter(|sample| sampled.lost_a_cable(sample.finest())).count();
+    let broken = sampled.samples.iter().filter(|sample| sampled.broke_a_cable(sample.finest())).count();
     let broken = (broken > 0).then(|| say!("a cable breaks {broken}", broken));
     let words: Vec<String> = Quantity::ALL.into_iter().filter_map(count).chain(broken).collect();
     if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) }

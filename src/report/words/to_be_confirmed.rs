@@ -41,7 +41,7 @@ pub fn count_assumed(case: &Case) -> usize {
 fn assumed_exact(case: &Case, marked: &[AssumedValue<'_>]) -> impl Iterator<Item = &'static str> {
     let own = marked.iter().filter(|value| value.section == uncertainty::SECTION.title);
     let marked: BTreeSet<String> = own.filter_map(AssumedValue::key).map(str::to_owned).collect();
-    case.plan.taken_as_exact().into_iter().filter(move |key| !marked.contains(*key))
+    case.plan.nearly_exact_inputs().into_iter().filter(move |key| !marked.contains(*key))
 }
 
 /// A line that the signer confirms before the shot.
@@ -85,7 +85,7 @@ pub fn to_be_confirmed(
 ) -> Vec<ToConfirm> {
     let of_plan = confirmed_of_plan(case, fired).into_iter();
     let fitted: Vec<_> = files.iter().filter(|file| file.was_fitted(&case.plan.fitted_from)).collect();
-    let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::counted_twice(&fitted));
+    let of_files = fitted_elsewhere(case, files).into_iter().chain(observed::perhaps_one_shot(&fitted));
     let of_files = of_files.chain(other_shots_unknown(case, files)).chain(observed::remarks(files));
     let of_files = all(About::More, of_files).chain(all(About::OtherBlasts, other_blasts(compared)));
     let unread = compared.unread_films().iter();
@@ -130,11 +130,10 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let exact = assumed_exact(case, &all_marked)
         .filter(|key| unusual.iter().filter(is_own).all(|one| one.key.name != *key));
     let exact: Vec<String> = exact.map(|key| say!("{key}: exact, or nearly", key)).collect();
-    let unusual =
-        unusual.iter().map(|Unusual { key, value, usual: [low, high], is_apart, .. }| match is_apart {
-            true => say!("{}: rows {value} ms apart", key.name, value),
-            false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
-        });
+    let unusual = unusual.iter().map(|Unusual { key, value, usual: [low, high], is_gap, .. }| match is_gap {
+        true => say!("{}: rows {value} ms apart", key.name, value),
+        false => say!("{} = {value}: usual are {low} to {high}", key.name, value, low, high),
+    });
     let values =
         marked.chain(left_out).chain(all(About::AssumedValue, exact)).chain(all(About::More, unusual));
     let film = all(About::Film, plan_warnings::without_film(case));

@@ -28,7 +28,7 @@ pub fn of_option(case: &Case, option: usize, judged: &Judgement) -> Vec<String> 
 
 /// Warning that tires slide far and no limit judges the slide; `None` otherwise. The signer checks that the ground is clear.
 pub fn far_slide(case: &Case, judged: &Judgement) -> Option<String> {
-    let (drift, so_far) = (far_drift(case, judged)?, as_far_as([judged]));
+    let (drift, so_far) = (far_drift(case, judged)?, far_drift_lead([judged]));
     Some(format!("{so_far} {} m: {}", units::rounded(drift, 2), phrase(NOT_CHECKED)))
 }
 
@@ -70,7 +70,7 @@ pub fn of_options(case: &Case, results: &OptionResults, but: Option<usize>) -> V
     }
     sort_by(&mut drifts, |a, b| a.0.total_cmp(&b.0));
     if let (Some(&(least, _)), Some(&(most, farthest))) = (drifts.first(), drifts.last()) {
-        let so_far = as_far_as(results.iter().flatten());
+        let so_far = far_drift_lead(results.iter().flatten());
         let [least, most] = [least, most].map(|drift| units::rounded(drift, 2));
         let drift = match drifts.len() {
             1 => format!("{most} m ({})", name(farthest)),
@@ -149,7 +149,7 @@ pub fn turning(case: &Case, judged: &Judgement) -> Option<String> {
 }
 
 /// First words of the warning of a far drift. Where an option was sampled, they say that some shots slide farther.
-fn as_far_as<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
+fn far_drift_lead<'j>(judged: impl IntoIterator<Item = &'j Judgement>) -> String {
     let sampled = judged.into_iter().filter(|judged| sampled_drift(judged).is_some());
     let above = sampled.filter_map(|judged| Some(judged.sampled.known()?.share_above()));
     match above.reduce(f64::max).map(units::one_in) {

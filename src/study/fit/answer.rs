@@ -77,7 +77,7 @@ pub struct Answer {
     /// Sum of squares of the independent residuals, including the residuals of the priors.
     pub chi_square: f64,
     /// Whether the estimates are final; if not, another round could move them.
-    pub is_settled: bool,
+    pub is_converged: bool,
     /// Degrees of freedom of `chi_square`; 0 if there are no more observations and priors than parameters.
     pub freedom: usize,
 }
@@ -151,7 +151,7 @@ impl Answer {
             self.estimates.iter().filter(is_launch).map(|estimate| 1e2 * estimate.sd / estimate.value);
         let fitted = percents.fold(0.0, f64::max);
         let is_by_row = self.estimates.iter().any(|estimate| estimate.parameter.row.is_some());
-        let narrows = self.is_settled && between_shots_percent.is_some() && !is_by_row;
+        let narrows = self.is_converged && between_shots_percent.is_some() && !is_by_row;
         LaunchUncertainty {
             common_percent: if narrows { fitted } else { fitted.max(before.launch_common_percent) },
             between_shots_percent: between_shots_percent.unwrap_or(before.launch_between_shots_percent),
@@ -170,14 +170,14 @@ mod tests {
     fn nothing_less_sure_is_written_as_surer() {
         let text = include_str!("../../../plans/amur-three-rows.toml");
         let before = Plan::parse("", text).unwrap_or_else(|mistakes| panic!("{mistakes}")).uncertainty;
-        let percent = |row: Option<usize>, sd: f64, is_settled: bool, between: Option<f64>| {
+        let percent = |row: Option<usize>, sd: f64, is_converged: bool, between: Option<f64>| {
             let unknown = if row.is_some() { Unknown::LaunchByRow } else { Unknown::Launch };
             let parameter = Parameter { unknown, row };
             let (was, from_stated, is_at_end) = (Some(1.0), None, false);
             let estimate = FittedParameter { parameter, value: 1.1, sd, was, from_stated, is_at_end };
             let (correlation, residuals) = (vec![vec![1.0]], Vec::new());
             let (estimates, chi_square, freedom) = (vec![estimate], 0.0, 0);
-            let answer = Answer { estimates, correlation, residuals, chi_square, is_settled, freedom };
+            let answer = Answer { estimates, correlation, residuals, chi_square, is_converged, freedom };
             let known = answer.launch_uncertainty(&before, between);
             assert_eq!(known.between_shots_percent, between.unwrap_or(before.launch_between_shots_percent));
             (1e6 * known.common_percent).round() / 1e6
@@ -185,7 +185,7 @@ mod tests {
         assert_eq!(before.launch_common_percent, 3.0);
         assert_eq!(percent(None, 0.022, true, Some(5.0)), 2.0);
         assert_eq!(percent(None, 0.022, true, None), 3.0, "all else was taken for exact");
-        assert_eq!(percent(None, 0.022, false, Some(5.0)), 3.0, "not settled");
+        assert_eq!(percent(None, 0.022, false, Some(5.0)), 3.0, "not converged");
         assert_eq!(percent(Some(1), 0.022, true, Some(5.0)), 3.0, "by row");
         assert_eq!(percent(None, 0.044, true, Some(5.0)), 4.0, "less sure than before");
     }

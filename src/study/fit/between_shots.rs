@@ -85,7 +85,7 @@ impl BetweenShots {
     pub(super) fn of_shots(self, seen: &ObservedShots, answer: &RefinedAnswer, parameters: usize) -> Self {
         // The plan may say that shots do not differ. Only an answer that is final can refute that, not observations that no launch
         // explains.
-        let shows = self.percent > 0.0 || answer.is_settled;
+        let shows = self.percent > 0.0 || answer.is_converged;
         if shows { self.of_factors(&shot_factors(seen, answer), parameters) } else { self }
     }
 

@@ -84,7 +84,7 @@ pub struct Question {
 
 /// Observations of earlier shots, beside the predictions of the plan.
 #[derive(Clone, Debug)]
-pub struct ComparedWithSeen {
+pub struct ComparedWithObservations {
     /// Fit to the files that the plan was not fitted to yet; `None` if it was fitted to all.
     pub fitted: Option<FitResult>,
     /// The files of that fit.
@@ -103,7 +103,7 @@ pub struct ComparedWithSeen {
 const RUNS_OF_FIT: usize = 6000;
 
 impl Study for Question {
-    type Found = ComparedWithSeen;
+    type Found = ComparedWithObservations;
     const LISTED: Option<Listed> = Some(Listed {
         name: "Fit",
         question: "What did you see?",
@@ -121,7 +121,7 @@ impl Study for Question {
         Self { observed: about.observed, unknowns: vec![Unknown::Launch] }
     }
 
-    fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithSeen> {
+    fn answer(&self, context: &Context<'_>) -> ComputeResult<ComparedWithObservations> {
         let files = self.observed.clone();
         let is_new = |file: &&Observations| !file.was_fitted(&context.case.plan.fitted_from);
         let new: Vec<Observations> = files.iter().filter(is_new).cloned().collect();
@@ -132,7 +132,7 @@ impl Study for Question {
         let seen = ObservedShots::new(&files);
         let predictions = predict_observations(context, &seen)?;
         let is_sampled = context.sampling.is_some();
-        Ok(Computed::complete(ComparedWithSeen { fitted, new, files, seen, predictions, is_sampled }))
+        Ok(Computed::complete(ComparedWithObservations { fitted, new, files, seen, predictions, is_sampled }))
     }
 }
 
@@ -176,22 +176,22 @@ pub fn fit(
     };
     control.has_steps(3);
     let answering = control.part(SHARE_OF_ANSWERS);
-    let mut settled = problem.answers(case)?;
+    let mut converged = problem.answers(case)?;
     drop(answering);
     let again = control.part(SHARE_OF_ANSWERS);
     if let Some(before) = between_shots {
         // The mean of the factors follows a launch. If no launch is estimated, the mean is one more parameter.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(unknowns));
-        let of_shots = before.of_shots(&problem.seen, &settled[0], follow);
+        let of_shots = before.of_shots(&problem.seen, &converged[0], follow);
         if of_shots.percent != problem.between_shots_percent {
             problem.between_shots_percent = of_shots.percent;
-            settled = problem.answers(case)?;
+            converged = problem.answers(case)?;
         }
         between_shots = Some(of_shots);
     }
     drop(again);
     let _telling = control.part(1.0);
-    let best = &settled[0];
+    let best = &converged[0];
     let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = problem.start_coordinates(&case.plan);
     let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
@@ -202,7 +202,7 @@ pub fn fit(
         let observed = problem.seen.list;
         return Ok(FitResult::NotDetermined { refused, observed, predictions });
     }
-    let answers: Vec<Answer> = settled.iter().map(|settled| problem.answer(case, settled)).collect();
+    let answers: Vec<Answer> = converged.iter().map(|converged| problem.answer(case, converged)).collect();
     let launches = estimates_launches(unknowns).then(|| {
         let before = &case.plan.uncertainty;
         answers[0].launch_uncertainty(before, between_shots.map(|between| between.percent))

@@ -85,7 +85,7 @@ struct Samples {
 
 impl Samples {
     /// The n-th value as an observer could see it in each sample, with an error of standard deviation `sd`.
-    fn could_be_seen(&self, n: usize, sd: f64) -> Vec<f64> {
+    fn observable_values(&self, n: usize, sd: f64) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(n as u64);
         self.values.iter().map(|sample| sample[n] + sd * random.sample::<f64, _>(StandardNormal)).collect()
     }
@@ -191,8 +191,8 @@ pub fn predict_observations(
         let first = all.len();
         let mut deviations = Vec::new();
         for (n, observation) in seen.list[shot.observations()].iter().enumerate() {
-            let could_be_seen = drawn.as_ref().map(|drawn| drawn.could_be_seen(n, observation.sd));
-            let band = could_be_seen.as_deref().and_then(band);
+            let observable_values = drawn.as_ref().map(|drawn| drawn.observable_values(n, observation.sd));
+            let band = observable_values.as_deref().and_then(band);
             let known = in_common.as_ref().zip(drawn.as_ref());
             let in_common = known.and_then(|(inputs, drawn)| inputs.correlation(drawn, n, observation.sd));
             let prediction = Prediction {
@@ -202,35 +202,35 @@ pub fn predict_observations(
                 in_common: in_common.unwrap_or(0.0),
                 of_launch: LaunchInformation::default(),
             };
-            deviations.push(deviations_often_known(&prediction, &could_be_seen.unwrap_or_default()));
+            deviations.push(deviations_often_known(&prediction, &observable_values.unwrap_or_default()));
             all.push(prediction);
         }
         let launch: Vec<f64> = drawn.iter().flat_map(Samples::log_launch).collect();
         let repeating = drawn.as_ref().map_or_else(Vec::new, Samples::repeating_but_launch);
-        let told = launch_information(&deviations, &launch, &repeating);
-        for (prediction, told) in all[first..].iter_mut().zip(told) {
-            prediction.of_launch = told;
+        let found = launch_information(&deviations, &launch, &repeating);
+        for (prediction, found) in all[first..].iter_mut().zip(found) {
+            prediction.of_launch = found;
         }
     }
     Ok(all)
 }
 
 /// 5th, 50th and 95th percentile of the values that are known; NaN if hardly any is known.
-fn band(could_be_seen: &[f64]) -> Option<[f64; 3]> {
-    let finite: Vec<f64> = could_be_seen.iter().copied().filter(|value| value.is_finite()).collect();
+fn band(observable_values: &[f64]) -> Option<[f64; 3]> {
+    let finite: Vec<f64> = observable_values.iter().copied().filter(|value| value.is_finite()).collect();
     // If every run failed, nothing was predicted, and no observation agrees.
-    if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * could_be_seen.len() as f64 {
+    if finite.is_empty() || (finite.len() as f64) < SELDOM_KNOWN * observable_values.len() as f64 {
         return Some([f64::NAN; 3]);
     }
     percentiles(finite.into_iter(), [0.05, 0.5, 0.95])
 }
 
 /// Distance of each value from the middle of its band [standard deviations], 0 if unknown; empty if too many are unknown.
-fn deviations_often_known(prediction: &Prediction, could_be_seen: &[f64]) -> Vec<f64> {
-    let deviations = could_be_seen.iter().filter_map(|value| prediction.deviations(*value));
+fn deviations_often_known(prediction: &Prediction, observable_values: &[f64]) -> Vec<f64> {
+    let deviations = observable_values.iter().filter_map(|value| prediction.deviations(*value));
     let deviations: Vec<f64> = deviations.map(|z| if z.is_finite() { z } else { 0.0 }).collect();
-    let known = could_be_seen.iter().filter(|value| value.is_finite()).count() as f64;
-    if known < OFTEN_KNOWN * could_be_seen.len() as f64 { Vec::new() } else { deviations }
+    let known = observable_values.iter().filter(|value| value.is_finite()).count() as f64;
+    if known < OFTEN_KNOWN * observable_values.len() as f64 { Vec::new() } else { deviations }
 }
 
 /// The single observation in a shot of `option` that would narrow its utilization most; `None` if none removes a hundredth of its

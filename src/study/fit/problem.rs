@@ -18,10 +18,10 @@ use crate::study::{Case, NoResult};
 const NEARLY_EQUAL: f64 = 6.0;
 
 /// The same bound for answers that are not final yet.
-const WORTH_SETTLING: f64 = 40.0;
+const WORTH_REFINING: f64 = 40.0;
 
 /// Greatest number of answers that are made final.
-const MOST_SETTLED: usize = 6;
+const MOST_REFINED: usize = 6;
 
 /// A fit in progress.
 pub(super) struct FitProblem<'p> {
@@ -104,21 +104,21 @@ impl FitProblem<'_> {
         drop(searching);
         let _settling = control.part(1.0);
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
-        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_SETTLING;
-        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_SETTLED).collect();
-        let settled = run_batch(&worth, control, |minimum| match self.seed {
+        let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_REFINING;
+        let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_REFINED).collect();
+        let converged = run_batch(&worth, control, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&model, minimum, seed),
-            None => self.settle(&model, minimum),
+            None => self.converge(&model, minimum),
         })?;
-        let settled: Option<Vec<Option<RefinedAnswer>>> = settled.into_iter().collect();
-        let mut settled: Vec<RefinedAnswer> =
-            settled.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
-        sort_by(&mut settled, |a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = settled.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
-        settled.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
-        Ok(settled.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, settled| {
-            if !all.iter().any(|known| known.minimum.is_same(&settled.minimum)) {
-                all.push(settled);
+        let converged: Option<Vec<Option<RefinedAnswer>>> = converged.into_iter().collect();
+        let mut converged: Vec<RefinedAnswer> =
+            converged.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        sort_by(&mut converged, |a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
+        let least = converged.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
+        converged.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
+        Ok(converged.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, converged| {
+            if !all.iter().any(|known| known.minimum.is_same(&converged.minimum)) {
+                all.push(converged);
             }
             all
         }))
@@ -134,7 +134,7 @@ impl FitProblem<'_> {
     }
 
     /// The answer near a minimum if nothing scatters.
-    fn settle(
+    fn converge(
         &self,
         model: &CovarianceModel<'_>,
         minimum: &Minimum,
@@ -146,7 +146,14 @@ impl FitProblem<'_> {
         let Some(predicted) = self.predictor.values(&minimum.point, 1.0)? else { return Ok(None) };
         let slopes = self.slopes(&minimum, &predicted)?;
         let over_shot_factor = DVector::zeros(predicted.len());
-        Ok(Some(RefinedAnswer { minimum, predicted, slopes, over_shot_factor, covariance, is_settled: true }))
+        Ok(Some(RefinedAnswer {
+            minimum,
+            predicted,
+            slopes,
+            over_shot_factor,
+            covariance,
+            is_converged: true,
+        }))
     }
 
     /// The answer near a minimum for the mean predictions under scatter. Samples about an answer give the mean, its slopes and the
@@ -159,7 +166,7 @@ impl FitProblem<'_> {
     ) -> Result<Option<RefinedAnswer>, NoResult> {
         let count = minimum.point.len();
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
-        let mut settled = None;
+        let mut converged = None;
         for _ in 0..MOST_ROUNDS {
             let Some(SampledPrediction { mean, slopes, over_shot_factor, covariance }) =
                 model.from_samples(&at, &spread, seed)?
@@ -199,15 +206,21 @@ impl FitProblem<'_> {
             // Samples about the next answer would show the same: it lies well inside the present samples, which spread as far.
             let is_near =
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
-            let is_settled = (0..count).all(is_near);
+            let is_converged = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            settled =
-                Some(RefinedAnswer { minimum, predicted, slopes, over_shot_factor, covariance, is_settled });
-            if is_settled {
+            converged = Some(RefinedAnswer {
+                minimum,
+                predicted,
+                slopes,
+                over_shot_factor,
+                covariance,
+                is_converged,
+            });
+            if is_converged {
                 break;
             }
         }
-        Ok(settled)
+        Ok(converged)
     }
 
     /// The reason why the run at these coordinates fails.
@@ -236,8 +249,8 @@ impl FitProblem<'_> {
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    pub fn answer(&self, case: &Case, settled: &RefinedAnswer) -> Answer {
-        let RefinedAnswer { minimum, predicted, covariance, .. } = settled;
+    pub fn answer(&self, case: &Case, converged: &RefinedAnswer) -> Answer {
+        let RefinedAnswer { minimum, predicted, covariance, .. } = converged;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
@@ -261,7 +274,7 @@ impl FitProblem<'_> {
         };
         let stated = self.priors.iter().flatten().count();
         Answer {
-            is_settled: settled.is_settled,
+            is_converged: converged.is_converged,
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
             residuals: (0..predicted.len()).map(residual).collect(),

@@ -16,7 +16,7 @@ pub(super) struct RefinedAnswer {
     pub over_shot_factor: DVector<f64>,
     pub covariance: ObservationCovariance,
     /// Whether the answer is final: the last round changed little.
-    pub is_settled: bool,
+    pub is_converged: bool,
 }
 
 impl RefinedAnswer {

@@ -10,7 +10,7 @@ use super::deciding_shot::{DecidingSamples, DecidingShots};
 use super::grounds::Evidence;
 use super::judgement::{Judgement, OptionResults, Part};
 use super::next_tires::judge_next_tires;
-use super::one_dud::{judge_one_dud, runs_of_duds};
+use super::one_dud::{expected_dud_samples, judge_one_dud};
 use super::recommend::safest_first;
 use super::turned::turned_height;
 use crate::scene::Shot;
@@ -201,7 +201,7 @@ impl<'a> Batch<'a> {
             .iter()
             .flat_map(|context| context.case.shots.iter().map(|shot| (context.case, shot)));
         let of_shot = |[without, with]: [usize; 2], (case, shot): (&Case, &Shot)| {
-            [without + sampling.most, with + runs_of_duds(case, shot)]
+            [without + sampling.most, with + expected_dud_samples(case, shot)]
         };
         shots.fold([0; 2], of_shot)
     }

@@ -34,7 +34,7 @@ const WORST_PLACES: usize = 3;
 const LOOK: usize = 50;
 
 /// Expected number of samples with one hole left out; 0 if the plan does not ask for them.
-pub fn runs_of_duds(case: &Case, shot: &Shot) -> usize {
+pub fn expected_dud_samples(case: &Case, shot: &Shot) -> usize {
     let limits = &case.plan.limits;
     // If the plan accepts more risk, a verdict takes fewer samples.
     let of_place = USUAL_OF_PASS as f64 * RISK_OF_USUAL / (1e-2 * limits.dud_risk_percent);
@@ -536,7 +536,7 @@ delay = [{{ name = "1", interval_ms = 0 }}]
     #[test]
     fn runs_of_duds_are_expected_where_the_plan_asks_for_them() {
         let mut case = standing_case();
-        let runs = |case: &Case| runs_of_duds(case, &case.shots[0]);
+        let runs = |case: &Case| expected_dud_samples(case, &case.shots[0]);
         (case.plan.limits.withstands_one_dud, case.plan.limits.dud_risk_percent) = (false, 2.0);
         assert_eq!((case.shots[0].firings.len(), runs(&case)), (30, 0));
         case.plan.limits.withstands_one_dud = true;

@@ -41,7 +41,7 @@ pub enum NotCompared {
     /// The terminal has not yet compared them with the plan on the screen.
     NotYet,
     /// Observations of the record: only the planned shots were asked for, and these have no band in which a film could lie.
-    PlannedAlone,
+    NoSamples,
     /// Observations of the record: they do not fit the plan as it is now, arrived during the computation, or nobody looked.
     InRecord,
     /// The file of the plan is gone, so the record beside it cannot be read.
@@ -73,16 +73,16 @@ impl Comparison {
 
     /// There are observations that are not compared.
     pub fn not_compared(why: NotCompared) -> Self {
-        Self::nothing_seen().except(Some(why))
+        Self::nothing_seen().with_not_compared(Some(why))
     }
 
     /// The same, with more observations that are not compared if there is a reason `why`. An earlier reason stays.
-    pub fn except(self, why: Option<NotCompared>) -> Self {
+    pub fn with_not_compared(self, why: Option<NotCompared>) -> Self {
         Self { not_compared: self.not_compared.or(why), ..self }
     }
 
     /// The same, with the names of record files beside it that are about other blasts.
-    pub fn beside(self, other_blasts: &[String]) -> Self {
+    pub fn with_other_blasts(self, other_blasts: &[String]) -> Self {
         Self { other_blasts: other_blasts.to_vec(), ..self }
     }
 
@@ -93,7 +93,7 @@ impl Comparison {
     }
 
     /// The same, with films in the plan's own folder of shots that nobody passed to the program.
-    pub fn without(self, unread_films: Vec<String>) -> Self {
+    pub fn with_unread_films(self, unread_films: Vec<String>) -> Self {
         Self { unread_films, ..self }
     }
 
@@ -137,10 +137,13 @@ mod tests {
         let against = Objection::Contradiction(Contradiction::Unpredicted { outside: 2, of: 2 });
         let [agrees, speaks_against] = [vec![], vec![against]].map(Comparison::compared);
         let not_compared = Comparison::not_compared(NotCompared::NotYet);
-        let both = speaks_against.clone().except(Some(NotCompared::NotYet));
-        assert!(agrees.agrees() && agrees.clone().except(None).agrees());
+        let both = speaks_against.clone().with_not_compared(Some(NotCompared::NotYet));
+        assert!(agrees.agrees() && agrees.clone().with_not_compared(None).agrees());
         assert!([speaks_against, not_compared, both].iter().all(|compared| !compared.agrees()));
-        let twice = agrees.except(Some(NotCompared::NoPlan)).except(Some(NotCompared::NotYet)).except(None);
+        let twice = agrees
+            .with_not_compared(Some(NotCompared::NoPlan))
+            .with_not_compared(Some(NotCompared::NotYet))
+            .with_not_compared(None);
         assert_eq!(twice.why_not_compared(), Some(&NotCompared::NoPlan), "the first reason stays");
     }
 }

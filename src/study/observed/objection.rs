@@ -7,7 +7,7 @@ use super::other_shot::{OtherShot, other_shots};
 use super::{AboveBand, Comparison, NotCompared, Objection, ObservationRecord};
 use crate::choice::ObservedQuantity;
 use crate::plan::observations::{MeasuredFiring, Observation, Observations};
-use crate::study::fit::ComparedWithSeen;
+use crate::study::fit::ComparedWithObservations;
 use crate::study::fit::observation_bands::{Prediction, predict_observations};
 use crate::study::fit::observed_shots::ObservedShots;
 use crate::study::{Case, Context, NoResult};
@@ -86,7 +86,7 @@ fn by_shot(
 /// Compares a plan with the record of earlier shots, by samples of the plan. Without samples only limits and logged times could speak
 /// against the plan, so the result is "not compared".
 pub fn compare_record(context: &Context<'_>, record: &ObservationRecord) -> Comparison {
-    compare_own(context, record).beside(record.other_blasts())
+    compare_own(context, record).with_other_blasts(record.other_blasts())
 }
 
 /// Compares the plan with its own record, without the names of files about other blasts.
@@ -106,13 +106,13 @@ fn compare_own(context: &Context<'_>, record: &ObservationRecord) -> Comparison 
     let seen = ObservedShots::new(&files);
     match predict_observations(context, &seen) {
         Ok(found) => compare(context.case, &files, &seen, &found)
-            .except(context.sampling.is_none().then_some(NotCompared::PlannedAlone)),
+            .with_not_compared(context.sampling.is_none().then_some(NotCompared::NoSamples)),
         Err(NoResult::OutOfTime) => Comparison::not_compared(NotCompared::OutOfTime),
         Err(_) => Comparison::not_compared(NotCompared::RunsFailed),
     }
 }
 
-impl ComparedWithSeen {
+impl ComparedWithObservations {
     /// Objections against the plan of this comparison.
     pub fn objections(&self, case: &Case) -> Vec<Objection> {
         objections_of_files(case, &self.files, &self.seen, &self.predictions)

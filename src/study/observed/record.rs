@@ -108,7 +108,7 @@ impl ObservationRecord {
     }
 
     /// The same record, with the names of `files` beside it that are about other blasts.
-    pub fn beside(self, files: Vec<String>) -> Self {
+    pub fn with_other_blasts(self, files: Vec<String>) -> Self {
         Self { other_blasts: files, ..self }
     }
 

@@ -46,7 +46,7 @@ pub fn find(plan: &Path) -> (PathBuf, ObservationRecord) {
         record.join(ObservationRecord::unreadable(&file, &reason));
     }
     let tells = first.filter(|_| !own.exists() && !own.is_symlink()).unwrap_or(own);
-    (tells, record.beside(other_blasts))
+    (tells, record.with_other_blasts(other_blasts))
 }
 
 /// Other record files in the plan's folder with observations that the plan's own record lacks.

@@ -31,7 +31,7 @@ pub struct RiskSummary {
 impl RiskSummary {
     /// The summary of a shot with its samples.
     pub fn of(sampled: &SampledShot) -> Self {
-        let utilization = sampled.deciding_share();
+        let utilization = sampled.deciding_utilization();
         let (verdict, finer_runs_disagree) = (sampled.verdict(), sampled.finer_runs_disagree());
         Self { bounds: sampled.bounds, verdict, finer_runs_disagree, utilization }
     }

@@ -291,7 +291,7 @@ pub(in crate::study) mod tests {
     }
 
     /// Two tires, of which one is fired.
-    pub fn lone_tire() -> Case {
+    pub fn one_of_two_tires_fired() -> Case {
         let text = r#"
 shelter = { layout = "grid", rows = 1, columns = 2, spacing_m = 3 }
 tire = { mass_kg = 280 }
@@ -308,7 +308,7 @@ delay = [{ name = "1", interval_ms = 0 }]
     /// its step.
     #[test]
     fn every_twentieth_sample_is_audited_and_more_of_the_first() {
-        let (case, control) = (lone_tire(), StudyControl::default());
+        let (case, control) = (one_of_two_tires_fired(), StudyControl::default());
         let compute = ComputeSettings::of(&case.plan);
         let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::OF_VERDICT);
         let sample = |number, halvings| run_sample(&target, number, halvings, &control).expect("a sample");
@@ -330,7 +330,7 @@ delay = [{ name = "1", interval_ms = 0 }]
     /// step if there is one.
     #[test]
     fn a_sample_takes_a_step_that_its_scene_allows() {
-        let case = lone_tire();
+        let case = one_of_two_tires_fired();
         let compute =
             ComputeSettings { accuracy: Accuracy::Field, step: None, ..ComputeSettings::of(&case.plan) };
         let mut scene = case.scene().clone();
@@ -357,7 +357,7 @@ delay = [{ name = "1", interval_ms = 0 }]
     /// A break in a mild run is a break.
     #[test]
     fn the_worst_wiring_is_the_one_that_fails() {
-        let limits = lone_tire().limits;
+        let limits = one_of_two_tires_fired().limits;
         let run = |verdict, breaks, height| SampleRun {
             verdict,
             uncovering: 0.0,

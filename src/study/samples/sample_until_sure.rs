@@ -151,7 +151,7 @@ mod tests {
     use crate::study::ComputeSettings;
     use crate::study::ShotSummary;
     use crate::study::samples::random_shot::Input;
-    use crate::study::samples::run_sample::tests::lone_tire;
+    use crate::study::samples::run_sample::tests::one_of_two_tires_fired;
     use crate::study::samples::sample::SampleRun;
     use crate::study::samples::sample_count::Sampling;
     use crate::verdict::Verdict;
@@ -159,7 +159,7 @@ mod tests {
     /// Samples drawn elsewhere count as they are. Here their audit contradicts them, so all are drawn anew at half the step.
     #[test]
     fn samples_drawn_elsewhere_are_taken_at_the_usual_step_only() {
-        let (case, control) = (lone_tire(), StudyControl::default());
+        let (case, control) = (one_of_two_tires_fired(), StudyControl::default());
         let run = |verdict| SampleRun {
             verdict,
             uncovering: 0.0,
@@ -192,7 +192,7 @@ mod tests {
     /// A shot is sampled anew three times at most. A shot of which only a pass is of interest is sampled while it can pass.
     #[test]
     fn sampling_ends_where_it_shows_no_more() {
-        let case = lone_tire();
+        let case = one_of_two_tires_fired();
         let compute = ComputeSettings::of(&case.plan);
         let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(2000, 1));
         assert!(target.may_halve(0) && target.may_halve(2) && !target.may_halve(3));
@@ -211,7 +211,7 @@ mod tests {
     /// Two machines together draw every sample of every shot once, as one machine would.
     #[test]
     fn shards_draw_what_one_machine_would() {
-        let (case, control) = (lone_tire(), StudyControl::default());
+        let (case, control) = (one_of_two_tires_fired(), StudyControl::default());
         let compute = ComputeSettings::of(&case.plan);
         let target = ShotToSample::new(&case, &case.shots[0], compute, Sampling::exactly(3, 1));
         let of_shard = |index: usize| {

@@ -176,7 +176,7 @@ impl SampledShot {
     }
 
     /// Whether a cable broke in a run and was gone from then on.
-    pub fn lost_a_cable(&self, run: &SampleRun) -> bool {
+    pub fn broke_a_cable(&self, run: &SampleRun) -> bool {
         self.value(run, Quantity::Force) == f64::INFINITY && run.verdict != Verdict::Undecided
     }
 
@@ -294,7 +294,7 @@ impl SampledShot {
 
     /// Greatest utilization of all samples, with the accepted share at the top left out. An undecided sample may have any
     /// utilization, so it counts as infinite, like a broken cable.
-    pub fn deciding_share(&self) -> f64 {
+    pub fn deciding_utilization(&self) -> f64 {
         let undecided = repeat_n(f64::INFINITY, self.samples.len() - self.decided().count());
         let mut shares: Vec<f64> = self.decided().map(|sample| self.share(sample)).chain(undecided).collect();
         shares.sort_by(f64::total_cmp);

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::choice::SearchedOrders;
 use crate::plan::{BlastRow, DelayOption, HoleTiming, Time, Timing};
-use crate::scene::{Cause, Firing, Shot, row_firings, shot_of_option};
+use crate::scene::{Firing, FiringNumbers, Shot, row_firings, shot_of_option};
 use crate::sorting::{sorted, sorted_by, sorted_by_key};
 use crate::study::eight_ms::WithinEightMs;
 use crate::study::{Case, NoResult};
@@ -343,7 +343,7 @@ fn ranks_across(case: &Case) -> Vec<usize> {
 
 /// Known shots, by the causes of their firings. A shot and its mirror images count as one.
 #[derive(Default)]
-pub struct KnownShots(HashSet<Vec<Cause>>);
+pub struct KnownShots(HashSet<Vec<FiringNumbers>>);
 
 impl KnownShots {
     /// Adds a shot; returns whether neither it nor a mirror image was known.

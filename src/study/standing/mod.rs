@@ -231,7 +231,7 @@ pub(crate) mod tests {
         assert_eq!(refused(case(), not_compared()), Some(Doubt::Hold(Hold::NotCompared)));
         let fired = Contradiction::Unpredicted { outside: 2, of: 2 };
         let contradicted = Comparison::compared(vec![Objection::Contradiction(fired)]);
-        let both = contradicted.clone().except(Some(NotCompared::OutOfTime));
+        let both = contradicted.clone().with_not_compared(Some(NotCompared::OutOfTime));
         assert_eq!(
             [contradicted, both].map(|compared| refused(case(), compared)),
             [Some(Doubt::Hold(Hold::Contradicted)); 2]

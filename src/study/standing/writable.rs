@@ -46,7 +46,7 @@ impl Fit {
         }
         match self.answers.len() {
             _ if !best.explains() => Some(NotWritable::DoesNotExplain),
-            _ if !best.is_settled => Some(NotWritable::NotSettled),
+            _ if !best.is_converged => Some(NotWritable::NotSettled),
             _ if best.estimates.iter().any(|estimate| estimate.is_at_end) => Some(NotWritable::AtEnd),
             1 => None,
             count => Some(NotWritable::SeveralAnswers(count)),
@@ -69,7 +69,7 @@ mod tests {
     /// A final answer that explains the observations.
     fn answer(estimates: &[FittedParameter]) -> Answer {
         let estimates = estimates.to_vec();
-        Answer { estimates, chi_square: 1.0, is_settled: true, freedom: 1, ..Answer::default() }
+        Answer { estimates, chi_square: 1.0, is_converged: true, freedom: 1, ..Answer::default() }
     }
 
     fn fit(answers: &[Answer]) -> Fit {
@@ -84,7 +84,7 @@ mod tests {
         let at_end = FittedParameter { is_at_end: true, ..launch };
         for (answers, why) in [
             (vec![Answer { chi_square: 99.0, ..sound.clone() }], NotWritable::DoesNotExplain),
-            (vec![Answer { is_settled: false, ..sound.clone() }], NotWritable::NotSettled),
+            (vec![Answer { is_converged: false, ..sound.clone() }], NotWritable::NotSettled),
             (vec![answer(&[launch, at_end])], NotWritable::AtEnd),
             (vec![sound.clone(), sound.clone()], NotWritable::SeveralAnswers(2)),
         ] {
@@ -116,7 +116,7 @@ mod tests {
         let sound = answer(&[]);
         assert_eq!(why("tires of 280 kg", sound.clone()), None);
         assert!(matches!(why("tires of 560 kg", sound.clone()), Some(NotWritable::OtherShot(_))));
-        let unsettled = Answer { is_settled: false, ..sound };
+        let unsettled = Answer { is_converged: false, ..sound };
         assert_eq!(why("tires of 280 kg", unsettled), Some(NotWritable::NotSettled));
     }
 }

@@ -23,7 +23,7 @@ impl App {
     /// Does an action of this tab. `None` for an action that every tab has.
     pub(super) fn act_on_fit(&mut self, action: Action) -> Option<Request> {
         match action {
-            Action::Open => self.ask_what_was_seen(),
+            Action::Open => self.ask_fired_option(),
             Action::Rerun if self.record.is_empty() => {
                 self.notice = Some("nothing was observed yet".to_owned());
             }
@@ -41,7 +41,7 @@ impl App {
 
     /// Begins an observation. If the plan has several options, the first question is which option was fired. The option that was named
     /// last is selected; otherwise none is.
-    fn ask_what_was_seen(&mut self) {
+    fn ask_fired_option(&mut self) {
         let count = self.options.len();
         self.prompt = Some(match count {
             0 | 1 => Prompt::new(Purpose::Observe(0), TypedLine::default()),
@@ -147,14 +147,14 @@ impl App {
     }
 
     /// Adds the observations from the record on disk to this record, and compares all of them.
-    pub(in crate::tui) fn join_seen(&mut self, there: ObservationRecord) -> Request {
+    pub(in crate::tui) fn merge_record(&mut self, there: ObservationRecord) -> Request {
         let before = std::mem::take(&mut self.record);
         // Drop the files that could not be read before. If a file still cannot be read, the other record says so.
         let other_blasts = there.other_blasts().to_vec();
         self.record = before.readable();
         self.record.join(there);
         let is_as_before = self.record == before;
-        self.record = std::mem::take(&mut self.record).beside(other_blasts);
+        self.record = std::mem::take(&mut self.record).with_other_blasts(other_blasts);
         if is_as_before {
             return Request::None;
         }

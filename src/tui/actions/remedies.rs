@@ -5,7 +5,7 @@ use crate::report::remedies::words;
 use crate::report::words::assumption_words::holds;
 use crate::study::question::StudyKind;
 use crate::study::remedies::Remedies;
-use crate::tui::app::{App, HOLDS_SOUGHT, NOT_JUDGED_YET, Request, STILL_LOOKED_FOR};
+use crate::tui::app::{ASSUMPTIONS_STILL_SOUGHT, App, NOT_JUDGED_YET, Request, STILL_LOOKED_FOR};
 use crate::tui::compare::OptionState;
 use crate::tui::keymap::Action;
 use crate::tui::studies::RemedyList;
@@ -38,7 +38,7 @@ impl App {
                 format!("{name}: its pass does not stand, and no change of the plan alone mends that")
             }
             Some(found) => format!("{name} {}", holds(found)),
-            None => format!("{name} passes; {HOLDS_SOUGHT}"),
+            None => format!("{name} passes; {ASSUMPTIONS_STILL_SOUGHT}"),
         }
     }
 

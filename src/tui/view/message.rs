@@ -25,7 +25,7 @@ pub fn lines(app: &App, width: u16) -> Vec<Line<'static>> {
     let asked = app.question_of_estimates();
     let said = app.notice.clone().or_else(|| filter(app).filter(|_| asked.is_none()));
     // A question stays complete. The notice of a key pressed meanwhile stands below it.
-    let texts = asked.into_iter().chain(said).chain(what_is_typed(app));
+    let texts = asked.into_iter().chain(said).chain(purpose_of_line(app));
     let room = usize::from(width).saturating_sub(2);
     let lines = texts.flat_map(|text| wrapped(&text, room)).take(MOST_LINES);
     lines.map(|line| Line::styled(format!(" {line}"), style)).collect()
@@ -41,7 +41,7 @@ fn filter(app: &App) -> Option<String> {
 }
 
 /// The purpose of the line being typed, if its head does not say everything.
-fn what_is_typed(app: &App) -> Option<String> {
+fn purpose_of_line(app: &App) -> Option<String> {
     let name = |option: usize| {
         let name = app.case.plan.delays.get(option).map_or("", |delay| delay.name.as_str());
         cut(name, LONGEST_NAME)

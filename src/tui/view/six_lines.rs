@@ -434,7 +434,7 @@ pub fn holds(app: &App) -> Vec<String> {
 
 /// Says that the assumptions of the selected option's pass are still being found, with the progress.
 fn being_found(app: &App) -> String {
-    let done = app.held_until_share(app.selected);
+    let done = app.assumption_search_progress(app.selected);
     let done = done.map_or_else(String::new, |share| format!(" {}", bar(share, BAR)));
     format!("still being found{done}; the page waits")
 }

@@ -143,7 +143,7 @@ fn options(app: &App, order: &[usize], holes: &HoleTiming) -> Vec<Marked> {
         let (words, style) = verdict_words(app, option);
         let mark = if words == TRYING { "…" } else { words.split(' ').next().unwrap_or_default() };
         let sampled = app.judgement(option)?.sampled.known();
-        let share = sampled.map(SampledShot::deciding_share);
+        let share = sampled.map(SampledShot::deciding_utilization);
         is_alike.then(|| Marked { at: interval.seconds(), share, word: app.word(option), mark, style })
     };
     (0..app.options.len()).filter_map(place).collect()

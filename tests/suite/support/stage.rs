@@ -18,7 +18,7 @@ use shelter::study::as_planned::check::CheckedShot;
 use shelter::study::as_planned::cover::Cover;
 use shelter::study::as_planned::shot_reason::ShotReason;
 use shelter::study::fit::observed_shots::ObservedShots;
-use shelter::study::fit::{Answer, ComparedWithSeen, Fit, FitResult};
+use shelter::study::fit::{Answer, ComparedWithObservations, Fit, FitResult};
 use shelter::study::judge::batch::Depth;
 use shelter::study::judge::brief_judgement::BriefJudgement;
 use shelter::study::judge::deciding_shot::{DecidingSamples, DecidingShot, DecidingShots};
@@ -236,8 +236,8 @@ fn found<T>(kind: impl FnOnce(Box<Computed<T>>) -> Found, value: T) -> Found {
 }
 
 /// A comparison in which nothing was seen.
-pub fn nothing_seen() -> ComparedWithSeen {
-    ComparedWithSeen {
+pub fn nothing_seen() -> ComparedWithObservations {
+    ComparedWithObservations {
         fitted: None,
         new: Vec::new(),
         files: Vec::new(),
@@ -248,10 +248,10 @@ pub fn nothing_seen() -> ComparedWithSeen {
 }
 
 /// What a fit found that settled without a value.
-pub fn fitted() -> ComparedWithSeen {
-    let answers = vec![Answer { is_settled: true, ..Answer::default() }];
+pub fn fitted() -> ComparedWithObservations {
+    let answers = vec![Answer { is_converged: true, ..Answer::default() }];
     let fit = Fit { answers, ..Fit::default() };
-    ComparedWithSeen { fitted: Some(FitResult::Fitted(fit)), ..nothing_seen() }
+    ComparedWithObservations { fitted: Some(FitResult::Fitted(fit)), ..nothing_seen() }
 }
 
 /// A sweep with round numbers.

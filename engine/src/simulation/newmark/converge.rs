@@ -21,7 +21,7 @@ const FINE_TOLERANCE: f64 = 1e-10;
 impl Stepper<'_> {
     /// Integrates one cut of a step over `h` [s]. Halves the cut if Newton or the contact region does not converge.
     pub(super) fn advance(&mut self, h: f64, halved: usize) -> Result<(), RunError> {
-        match self.settle(h) {
+        match self.solve_until_region_agrees(h) {
             Err(RunError::NotConverged { .. }) if halved < MOST_STEP_HALVINGS => {
                 self.advance(0.5 * h, halved + 1)?;
                 self.advance(0.5 * h, halved + 1)
@@ -31,7 +31,7 @@ impl Stepper<'_> {
     }
 
     /// Integrates over `h` [s]. Repeats the solution until the contact region no longer changes.
-    fn settle(&mut self, h: f64) -> Result<(), RunError> {
+    fn solve_until_region_agrees(&mut self, h: f64) -> Result<(), RunError> {
         self.refresh();
         self.set_start_forces();
         self.release_tires();

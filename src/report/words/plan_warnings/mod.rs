@@ -18,8 +18,8 @@ pub use of_shelter::kind_of_own_rope;
 /// values, and ranges of `[uncertainty]` that leave out the plan's own value.
 pub fn of_plan(case: &Case) -> Vec<String> {
     let unusual = case.plan.unusual();
-    let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high], is_apart }| {
-        if *is_apart {
+    let unusual = unusual.iter().map(|Unusual { section, key, value, usual: [low, high], is_gap }| {
+        if *is_gap {
             return say!(
                 "rows fire {value} ms apart: is one of the times of `{}` in seconds?",
                 value,
@@ -83,8 +83,8 @@ fn inputs_left_out(case: &Case) -> Option<String> {
 
 /// Warning with the inputs that `[uncertainty]` says are exact, or nearly: nothing on a site is exact. The warning stands with the
 /// results of a study. On screens these inputs count as assumed.
-pub fn taken_as_exact(case: &Case) -> Option<String> {
-    let all = case.plan.taken_as_exact();
+pub fn nearly_exact_inputs(case: &Case) -> Option<String> {
+    let all = case.plan.nearly_exact_inputs();
     let mut named = all.iter().take(MOST_NAMED).map(|key| format!("`{key}`")).join(", ");
     let more = all.len().saturating_sub(MOST_NAMED);
     if more > 0 {
@@ -123,7 +123,7 @@ mod tests {
             let case = Case::new(plan);
             of_plan(&case)
                 .into_iter()
-                .chain(taken_as_exact(&case))
+                .chain(nearly_exact_inputs(&case))
                 .filter(|line| line.contains("exact") || line.contains("hold all"))
                 .collect::<Vec<_>>()
         };

@@ -317,7 +317,7 @@ mod tests {
         }
     }
 
-    /// A limit in grams, or with a zero too many: all holes of the plan stay far below it.
+    /// A limit in kg_to_the_gram, or with a zero too many: all holes of the plan stay far below it.
     #[test]
     fn a_limit_that_all_holes_together_keep_is_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
