@@ -23,50 +23,56 @@ impl AssumedValue<'_> {
 }
 
 /// The assumed values in the text of a plan, from top to bottom. If the comment behind a section's header says assumed, all values of the
-/// section are.
+/// section are; so are they if a comment directly above or below the header says so. Any other comment on a line of its own that says
+/// assumed counts as one value, with its text: nobody can tell how many values it is about.
 pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let is_header = |n: Option<usize>| n.and_then(|n| lines.get(n)).is_some_and(|line| line.starts_with('['));
+    let says_alone = |n: Option<usize>| {
+        let comment = n.and_then(|n| lines.get(n)?.strip_prefix('#'));
+        comment.is_some_and(says_assumed)
+    };
     let (mut section, mut is_whole) = ("", false);
-    text.lines().filter_map(move |line| {
-        let (line, comment) = split_at_comment(line).unwrap_or((line, ""));
+    let mut found = Vec::new();
+    for (n, &whole) in lines.iter().enumerate() {
+        let [above, below] = [n.checked_sub(1), Some(n + 1)];
+        let (line, comment) = split_at_comment(whole).unwrap_or((whole, ""));
         let (line, is_marked) = (line.trim(), says_assumed(comment));
         if line.starts_with('[') {
-            (section, is_whole) = (line, is_marked);
-            return None;
+            (section, is_whole) = (line, is_marked || says_alone(above) || says_alone(below));
+            continue;
         }
         let value = AssumedValue { section, line };
-        (!line.is_empty() && is_marked || is_whole && value.has_name()).then_some(value)
-    })
+        if line.is_empty() {
+            let is_own = is_marked && !is_header(above) && !is_header(below);
+            found.extend(is_own.then_some(AssumedValue { section, line: whole }));
+        } else if is_marked || is_whole && value.has_name() {
+            found.push(value);
+        }
+    }
+    found.into_iter()
 }
 
-/// Whether the comment behind a value says that nobody has determined the value yet.
+/// Whether a comment says that nobody has determined a value yet.
 pub fn says_assumed(comment: &str) -> bool {
     let comment = comment.to_lowercase();
-    WORDS.iter().any(|word| comment.contains(word)) || {
+    PARTS.iter().any(|part| comment.contains(part)) || {
         let mut words = comment.split(|sign: char| !sign.is_alphanumeric());
-        words.any(|word| WHOLE_WORDS.contains(&word))
+        words.any(|word| WORDS.contains(&word))
     }
 }
 
-/// Parts of words for an assumed value, in the languages of people who write plans; then words that must stand alone.
-const WORDS: [&str; 16] = [
-    "assum",
-    "invented",
-    "guess",
-    "estimat",
-    "approximat",
-    "not measured",
-    "unmeasured",
-    "to be measured",
-    "from memory",
-    "rule of thumb",
-    "предполож",
-    "не измерен",
-    "приблизит",
-    "на глаз",
-    "geschätzt",
-    "angenommen",
+/// Parts of a comment that call a value assumed, in the languages of people who write plans, in small letters.
+#[rustfmt::skip]
+const PARTS: &[&str] = &[
+    "assum", "invented", "guess", "estim", "approx", "roughly", "not measured", "unmeasured", "to be measured", "not weighed", "not filmed",
+    "to be filmed", "until filmed", "no film", "nobody observed", "nobody weighed", "nobody filmed it", "nobody filmed yet", "not sure", "from memory", "rule of thumb", "by eye", "placeholder", "copied",
+    "tutorial", "last year", "check!", "?", "~",
+    "предполож", "не измер", "приблизит", "примерно", "на глаз", "принято", "уточнит", "оценка", "предварительн", "выдуман", "из примера",
+    "проверить", "schätz", "angenommen", "annahme", "ungefähr", "supuest", "aproxim", "supposé",
 ];
-const WHOLE_WORDS: [&str; 4] = ["todo", "tbd", "fixme", "unknown"];
+/// Words that call a value assumed, each as a whole word.
+const WORDS: &[&str] = &["todo", "tbd", "fixme", "unknown", "default", "circa", "ca"];
 
 /// A line of a plan before and behind the sign of its comment. A `#` inside a text begins no comment.
 fn split_at_comment(line: &str) -> Option<(&str, &str)> {
@@ -88,7 +94,7 @@ mod tests {
 
     #[test]
     fn assumed_values_have_their_section_and_key() {
-        let text = "title = \"# assumed\" # a site\n[cable]\nslack_percent = 2 # assumed\n# assumed\nrope = '#6' # invented\n";
+        let text = "title = \"# assumed\" # a site\n[cable]\nslack_percent = 2 # assumed\n# a rope of ours\nrope = '#6' # invented\n";
         let found: Vec<AssumedValue<'_>> = assumed_values(text).collect();
         let [slack, rope] = &found[..] else { panic!("{found:?}") };
         assert_eq!([slack.section, rope.section], ["[cable]"; 2]);
@@ -106,6 +112,23 @@ mod tests {
         assert_eq!(assumed_values("[[blast_row]] # guess\nholes = [\n{ x_m = 0 },\n]\n").count(), 1);
     }
 
+    /// Comments on lines of their own, above a value, a section or the whole plan, were overlooked: a plan of guesses got a clean page.
+    #[test]
+    fn a_comment_on_a_line_of_its_own_counts() {
+        let text = "# All of this is guessed.\ntitle = \"a\"\n\n# TODO\n[tire]\nmass_kg = 280\nouter_diameter_m = 1.6\n[cable]\n\
+                    # nobody filmed it\nslack_percent = 2\n\n# assumed\n\nrope = \"a\"\n";
+        let found: Vec<&str> = assumed_values(text).map(|value| value.line).collect();
+        let all = [
+            "# All of this is guessed.",
+            "mass_kg = 280",
+            "outer_diameter_m = 1.6",
+            "slack_percent = 2",
+            "# assumed",
+            "rope = \"a\"",
+        ];
+        assert_eq!(found, all);
+    }
+
     #[test]
     fn a_guess_is_assumed_whatever_it_is_called() {
         for comment in [
@@ -116,6 +139,11 @@ mod tests {
             "estimated",
             "Предположительно",
             "geschätzt",
+            "nobody observed it: no option passes before a shot is filmed",
+            "50?",
+            "~5 m/s",
+            "примерно",
+            "estimado",
         ] {
             assert!(says_assumed(comment), "{comment}");
         }

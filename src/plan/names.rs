@@ -12,15 +12,32 @@ pub fn trimmed(name: &str) -> &str {
     name.trim_matches(|letter: char| letter.is_whitespace() || letter == BLANK_BRAILLE || is_ignored(letter))
 }
 
-/// The look of a name: the same for names that nobody can distinguish, such as `1O ms` and `10 ms`.
+/// The look of a name: the same for names that people take for each other, on paper or on the radio, such as `1O ms` and `10 ms`, or
+/// `42 ms`, `42 MS` and `42`.
 ///
-/// The look is the skeleton of Unicode's "Security Mechanisms" (UTS 39). White space of any kind and length counts as one space.
+/// The look is the skeleton of Unicode's "Security Mechanisms" (UTS 39) in small letters. White space does not count, nor does the unit
+/// behind a number.
 pub fn look(name: &str) -> String {
-    let skeleton: String = skeleton(name).collect();
-    skeleton
+    let words = folded(name);
+    let mut look = words
         .split(|letter: char| letter.is_whitespace() || letter == BLANK_BRAILLE)
         .filter(|word| !word.is_empty())
-        .join(" ")
+        .join("");
+    let number = MILLISECONDS.iter().find_map(|unit| look.strip_suffix(&folded(unit)));
+    let number = number.filter(|number| number.ends_with(DIGIT_LOOKS)).map(str::len);
+    look.truncate(number.unwrap_or(look.len()));
+    look
+}
+
+/// Units that people leave out behind a number.
+const MILLISECONDS: [&str; 2] = ["ms", "мс"];
+/// The looks of digits: UTS 39 takes 0 for O and 1 for l.
+const DIGIT_LOOKS: [char; 10] = ['o', 'l', '2', '3', '4', '5', '6', '7', '8', '9'];
+
+/// The skeleton of a text in small letters. A letter that has no skeleton as a capital may have one as a small letter.
+fn folded(text: &str) -> String {
+    let skeleton_of = |text: &str| skeleton(text).collect::<String>().to_lowercase();
+    skeleton_of(&skeleton_of(text))
 }
 
 /// Whether nobody can distinguish two names.
@@ -77,13 +94,24 @@ mod tests {
     #[test]
     fn names_that_nobody_can_tell_apart_are_one() {
         // A Cyrillic ѕ, capital letters for digits, a fullwidth digit, ö in one character and in two, a mathematical m.
-        for other in ["42 m\u{455}", "42\u{a0}ms", "42  ms", "\u{ff14}2 ms", "42 \u{1d5c6}s"] {
+        // So are names that differ by capitals, spaces or the unit alone.
+        for other in [
+            "42 m\u{455}",
+            "42\u{a0}ms",
+            "42  ms",
+            "\u{ff14}2 ms",
+            "42 \u{1d5c6}s",
+            "42 MS",
+            "42ms",
+            "42",
+            "42 мс",
+        ] {
             assert!(look_alike("42 ms", other), "{other:?}");
             assert_eq!(find(["20 ms", "42 ms"], other), Some(1));
         }
         assert!(look_alike("10 ms", "1O ms") && look_alike("10 ms", "l0 ms"));
         assert!(look_alike("größte", "gro\u{308}ßte"));
-        for other in ["42 mS", "4.2 ms", "24 ms", "42 ms (2)", "42ms", "42 ms, middle first"] {
+        for other in ["4.2 ms", "24 ms", "42 ms (2)", "42 s", "42 ms, middle first"] {
             assert!(!look_alike("42 ms", other), "{other:?}");
             assert_eq!(find(["42 ms"], other), None);
         }

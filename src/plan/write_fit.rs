@@ -1,9 +1,11 @@
 //! Writes a fit into the text of a plan: the estimates, their uncertainty, and the observations behind them.
 
-use toml_edit::{Array, DocumentMut, Item, TableLike, Value};
+use toml_edit::{Array, Decor, DocumentMut, Item, RawString, TableLike, Value};
 
+use super::assumed::says_assumed;
 use super::edit::{change_launches, change_section, replace_keys, set, with_line_ends_of};
 use super::keys::{cable, ground, plan, uncertainty};
+use super::starter::LAUNCH_IS_ASSUMED;
 use super::{Plan, Uncertainty, fitted_blast};
 use crate::choice::Unknown;
 use crate::plan::keys::Key;
@@ -87,8 +89,8 @@ impl EstimateToWrite {
     }
 }
 
-/// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay. An axial
-/// stiffness takes the place of the rope's name.
+/// The text of a plan with these estimates, and with the checksums of the observations behind them. Comments and formatting stay, except
+/// a comment that calls the launch assumed. An axial stiffness takes the place of the rope's name.
 ///
 /// The plan gets the common uncertainty of launches after the fit, and beside it the variation from shot to shot, which a fit does not
 /// reduce. For friction, slack and stiffness a plan has a single range for both. If an estimate is less sure than `before`, its range gets
@@ -108,6 +110,11 @@ pub fn write(text: &str, before: &Plan, fitted: &FitToWrite, checksums: &[String
                 (&uncertainty::LAUNCH_BETWEEN_SHOTS_PERCENT, between_shots_percent),
             ] {
                 set(section, key.name, short(percent).into());
+            }
+            let common =
+                section.get_mut(uncertainty::LAUNCH_COMMON_PERCENT.name).and_then(Item::as_value_mut);
+            if let Some(decor) = common.map(Value::decor_mut).filter(|decor| is_assumed(decor)) {
+                decor.set_suffix(" # as fitted");
             }
         }
         for estimate in &fitted.estimates {
@@ -139,7 +146,16 @@ pub fn write(text: &str, before: &Plan, fitted: &FitToWrite, checksums: &[String
             }
         }
     });
-    Ok(with_line_ends_of(text, &document))
+    let written = with_line_ends_of(text, &document);
+    if fitted.launches.is_none() {
+        return Ok(written);
+    }
+    Ok(written.split_inclusive('\n').filter(|line| line.trim() != LAUNCH_IS_ASSUMED).collect())
+}
+
+/// Whether the comment behind a value says that nobody has determined the value.
+fn is_assumed(decor: &Decor) -> bool {
+    decor.suffix().and_then(RawString::as_str).is_some_and(says_assumed)
 }
 
 /// Writes an estimate in place of the plan's value.
@@ -229,7 +245,7 @@ mod tests {
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
                 "launch_m_s = 6.6",
-                "launch_common_percent = 2.0        # of the whole shot at once: the velocities are an estimate; assumed: put in yours",
+                "launch_common_percent = 2.0 # as fitted",
                 "launch_between_shots_percent = 5.0 # from shot to shot, which no fit of one shot takes away; assumed: put in yours",
                 "friction = [0.35, 0.55]            # rocky soil",
                 "slack_percent = [0.0, 0.6]       # assumed: measure yours",

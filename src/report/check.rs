@@ -346,7 +346,8 @@ pub fn report_of_plan(
         fact(
             &["to_be_confirmed"],
             fired.map(|judged| {
-                let confirmed = to_be_confirmed(case, Some(judged), files, standing.compared()).into_iter();
+                let fired = lone_or_chosen.map(|option| (option, judged));
+                let confirmed = to_be_confirmed(case, fired, files, standing.compared()).into_iter();
                 let confirmed = confirmed.map(|line| line.text);
                 Cell::Sentences(forbidden.map(str::to_owned).into_iter().chain(confirmed).collect())
             }),

@@ -13,6 +13,7 @@ use crate::report::words::headline::Headline;
 use crate::report::words::to_be_confirmed::{ToConfirm, is_anything_to_be_confirmed, to_be_confirmed};
 use crate::study::FileState;
 use crate::study::fit::ComparedWithObservations;
+use crate::study::judge::Judgement;
 use crate::study::observed::{Comparison, NotCompared};
 use crate::study::question::{Found, StudyKind};
 use crate::study::standing::Standing;
@@ -124,13 +125,18 @@ impl App {
     /// Whether anything is to be confirmed before an option is fired.
     pub fn is_under_condition(&self, option: usize) -> bool {
         let files = || self.record.read(&self.case).unwrap_or_default();
-        is_anything_to_be_confirmed(&self.case, self.judgement(option), files, &self.comparison())
+        is_anything_to_be_confirmed(&self.case, self.fired(option), files, &self.comparison())
+    }
+
+    /// An option with its judgement; `None` if it has none yet.
+    fn fired(&self, option: usize) -> Option<(usize, &Judgement)> {
+        Some((option, self.judgement(option)?))
     }
 
     /// What is to be confirmed before an option is fired.
     pub fn to_be_confirmed(&self, option: usize) -> Vec<ToConfirm> {
         let seen = self.record.read(&self.case).unwrap_or_default();
-        to_be_confirmed(&self.case, self.judgement(option), &seen, &self.comparison())
+        to_be_confirmed(&self.case, self.fired(option), &seen, &self.comparison())
     }
 
     /// Whether the first line is final: the assumptions of the recommended option are known. Without a recommended option: the assumptions

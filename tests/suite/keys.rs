@@ -1365,7 +1365,7 @@ fn a_page_waits_for_what_the_pass_stands_on() {
     // Who signs sees when the holes fire, whatever the option is called.
     assert!(
         late.contains(
-            "To be fired only if all that is to be confirmed is right, slide NOT checked: option “42 ms”, rows at 0/42/84 ms, "
+            "To be fired only if all that is to be confirmed is right, slide NOT checked: option “42 ms”, rows at 1: 0 ms, 2: 42 ms, 3: 84 ms, "
         )
     );
 }

@@ -162,7 +162,7 @@ fn the_option_to_be_fired_heads_the_page_with_all_its_verdict_rests_on() {
     let line = head.first_element_child().map(words).expect("a line");
     assert_eq!(
         line,
-        "To be fired only if all that is to be confirmed is right, and a THIN pass, slide NOT checked: <b>, rows at 0/42 ms, holes 17 ms left"
+        "To be fired only if all that is to be confirmed is right, and a THIN pass, slide NOT checked: <b>, rows at 1 < 2: 0 ms, 2: 42 ms · holes 17 ms left"
     );
     let found = &CHECKED["options"][1];
     assert_eq!(found["nominal_verdict"], "pass", "so that there is a launch margin");
@@ -222,7 +222,7 @@ fn an_option_that_has_not_passed_says_why_at_the_head() {
     assert!(head.contains("none: the planned shot does not pass"), "{head}");
     let signed = words(of_class(&page, "signatures").expect("lines to sign"));
     assert!(
-        signed.contains("“<b>”, rows at 0/42 ms, holes 17 ms left, FAIL"),
+        signed.contains("“<b>”, rows at 1 < 2: 0 ms, 2: 42 ms · holes 17 ms left, FAIL"),
         "who signs reads the verdict: {signed}"
     );
 }
@@ -259,7 +259,7 @@ fn a_page_without_samples_says_so_wherever_it_says_pass() {
     for place in [
         // The head, the signature, the heading of its charts, and the foot of every printed page.
         format!("<p>Judged: PASS{caveat}</p>"),
-        format!("“42 ms”, rows at 0/42/84 ms, PASS{caveat}"),
+        format!("“42 ms”, rows at 1: 0 ms, 2: 42 ms, 3: 84 ms, PASS{caveat}"),
         format!("42 ms PASS{caveat} · NOT to be fired"),
         in_style_sheet("“42 ms”: NOT to be fired"),
     ] {

@@ -14,6 +14,7 @@ pub enum Column {
     Launch,
     Angle,
     Bearing,
+    Charge,
 }
 
 impl Column {
@@ -24,6 +25,7 @@ impl Column {
             Self::Fire | Self::Delay => "ms",
             Self::Launch => "m/s",
             Self::Angle | Self::Bearing => "°",
+            Self::Charge => "kg",
             Self::Pattern | Self::Id | Self::Row | Self::From => "",
         }
     }
@@ -81,6 +83,9 @@ const NAMES: &[(Column, &[&str])] = &[
     (Column::Launch, &["launch", "launchvelocity", "v0"]),
     (Column::Angle, &["anglefromvertical"]),
     (Column::Bearing, &["bearing", "holebearing"]),
+    (Column::Charge, &[
+        "charge", "chargemass", "explosive", "explosivemass", "заряд", "массазаряда", "carga", "ladung", "lademenge",
+    ]),
 ];
 
 /// Units, each with the endings of names that state the unit, in small letters and without brackets.
@@ -91,6 +96,7 @@ const UNITS: &[(&str, &[&str])] = &[
     ("m/s", &["m/s", "m_s", "mpers", "м/с"]),
     ("mm", &["mm", "мм"]), ("cm", &["cm", "см"]), ("km", &["km", "км"]), ("ft", &["ft", "feet", "'"]),
     ("°", &["°", "deg"]),
+    ("kg", &["kg", "кг"]), ("lb", &["lb", "lbs"]), ("g", &["g"]),
     ("s", &["s", "sec", "sek", "seg", "seconds", "с", "сек"]), ("µs", &["us", "µs", "μs", "мкс"]),
     ("ft/s", &["ft/s"]), ("km/h", &["km/h", "км/ч"]),
 ];
@@ -169,6 +175,8 @@ pub fn meaning(name: &str) -> Meaning {
     }
     match named(&plain(name)) {
         Some(column @ (Column::Fire | Column::Delay | Column::Launch)) => Meaning::WithoutUnit(column),
+        // Such a column may name the explosive, or say that there is one.
+        Some(Column::Charge) => Meaning::Other,
         Some(column) => Meaning::Known(column),
         None => unclear(name),
     }

@@ -285,7 +285,9 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     };
     let mut value = |column: Column, word: &str, key: &Key, must: bool| {
         let range = key.kind.range();
-        let found = field(column);
+        // `unfired` refuses a hole without charge.
+        let is_empty_hole = |text: &&str| column == Column::Charge && number::value(text, comma) == Some(0.0);
+        let found = field(column).filter(|text| !is_empty_hole(text));
         // Two delays in one cell, `25 500`, are no thousands: no hole fires that late.
         let is_time = matches!(column, Column::Fire | Column::Delay);
         let number = |text: &str| {
@@ -321,6 +323,7 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
     let angle_deg = value(Column::Angle, "the angle from the vertical", &hole::TILT_DEG, inclined);
     let has_bearing = angle_deg.is_some_and(|angle| angle > 0.0);
     let bearing_deg = value(Column::Bearing, "the bearing", &hole::TILT_TOWARD_DEG, has_bearing);
+    let charge_kg = value(Column::Charge, "the charge", &hole::CHARGE_KG, false);
     let text = |column: Column| field(column).map(str::to_owned);
     let id = text(Column::Id).unwrap_or_else(|| line.number.to_string());
     let sums_up = |name: &&str| SUMS.contains(&name.to_lowercase().trim_end_matches([':', ' ']));
@@ -356,7 +359,7 @@ fn read_hole(line: &Line, columns: &Columns, comma: bool, mistakes: &mut Vec<Mis
         from: text(Column::From),
         launch_m_s,
         tilt: angle_deg.zip(bearing_deg).and_then(|(angle, bearing)| Tilt::against_hole(angle, bearing)),
-        charge_kg: None,
+        charge_kg,
         span: line.span.clone(),
     })
 }

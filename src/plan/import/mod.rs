@@ -26,7 +26,7 @@ use super::Diagnostics;
 use super::diagnostic::Mistake;
 use super::keys::{MOST_TIRES, blast_row, delay, hole};
 use super::source::{Unreadable, read_bytes, text_of};
-use super::starter::{self, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
+use super::starter::{self, LAUNCH_IS_ASSUMED, LAUNCH_M_S, Shelter, USUAL, header, line, quoted};
 use crate::units::{self, Unit};
 
 /// Distances between holes [m] that become the spacing of the tires; other distances give the usual spacing.
@@ -318,6 +318,10 @@ fn write(
     for group in groups {
         text += &header(&blast_row::SECTION);
         text += &line(&blast_row::NAME, quoted(&group.name));
+        if group.holes.iter().any(|&hole| holes[hole].launch_m_s.is_none()) {
+            text += LAUNCH_IS_ASSUMED;
+            text += "\n";
+        }
         let _ = writeln!(text, "{} = [", blast_row::HOLES.name);
         for &hole in &group.holes {
             let hole = &holes[hole];

@@ -12,7 +12,7 @@ const DUMMY: &str = "dummy";
 #[rustfmt::skip]
 const UNFIRED_ALONE: &[&str] = &[
     "spare", "backfilled", "blocked", "collapsed", "plugged", "lost",
-    "пустая", "отказ", "завалена", "обрушена", "запасная",
+    "заброшена", "verlassen", "abandonado", "пустая", "отказ", "завалена", "обрушена", "запасная",
 ];
 /// Beginnings of remarks which say that a hole does not fire, in small letters.
 const UNFIRED: &[&str] = &[

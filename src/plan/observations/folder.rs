@@ -44,14 +44,26 @@ pub fn files_of(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostics> {
     Ok(files)
 }
 
-/// Names of the films in the folder of shots beside a plan that are not among the files `given`. The folder of `rows.toml` is `rows.shots`.
+/// Names of the films that lie beside a plan, or in a folder beside it, and are not among the files `given`. Folders of other plans' shots do
+/// not count; the folder of `rows.toml` is `rows.shots`.
 pub fn names_of_films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<String> {
-    let entries = std::fs::read_dir(plan.with_extension("shots")).into_iter().flatten().flatten();
+    let (own, beside) = (plan.with_extension("shots"), plan.parent().unwrap_or(Path::new("")));
+    let beside = if beside.as_os_str().is_empty() { Path::new(".") } else { beside };
+    let is_others = |path: &PathBuf| *path != own && has_ending(path, &["shots"]);
+    let folders = entries_of(beside).filter(|path| path.is_dir() && !is_others(path));
+    let within = folders.flat_map(|folder| entries_of(&folder));
     let same = |a: &Path, b: &Path| a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
-    let films = entries.map(|entry| entry.path()).filter(|path| has_ending(path, &["csv"]));
-    let mut films: Vec<PathBuf> = films.filter(|film| given.iter().all(|one| !same(one, film))).collect();
+    let tables = within.chain(entries_of(beside)).filter(|path| has_ending(path, &["csv"]) && path.is_file());
+    let not_given = tables.filter(|film| given.iter().all(|one| !same(one, film)));
+    let mut films: Vec<PathBuf> =
+        not_given.filter(|path| path.starts_with(&own) || names_quantities(path)).collect();
     sort(&mut films);
     films.iter().map(|film| name_of(film)).collect()
+}
+
+/// The entries of a folder; none if it cannot be read.
+fn entries_of(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }
 
 /// Whether an entry of a folder may hold observations that nobody reads: a folder, a table of another kind, a copy with another ending, or

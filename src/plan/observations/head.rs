@@ -100,7 +100,14 @@ impl ShotHead {
                 found
             };
             let is_first = match name.as_str() {
-                "date" => fill(&mut head.date, || Some(value.to_owned())),
+                "date" => {
+                    mistakes.extend((!is_day(value)).then(|| Mistake {
+                        span: span.clone(),
+                        message: format!("`{value}` is no day"),
+                        remedy: "write year, month and day as `# date: 2026-05-04`: by its day a shot counts once".to_owned(),
+                    }));
+                    fill(&mut head.date, || Some(value.to_owned()))
+                }
                 "cover" => fill(&mut head.cover, || Some(value.to_owned())),
                 "charge" | "charge_kg" => fill(&mut head.charge_kg, || number("kg")),
                 "stemming" | "stemming_m" => fill(&mut head.stemming_m, || number("m")),
@@ -142,6 +149,17 @@ fn fill<T>(place: &mut Option<T>, read: impl FnOnce() -> Option<T>) -> bool {
         *place = read();
     }
     is_first
+}
+
+/// Whether a text begins with a day as ISO 8601 writes it, `2026-05-04`. Words behind it keep two shots of one day apart.
+fn is_day(text: &str) -> bool {
+    let is_sign =
+        |(n, sign): (usize, char)| if [4, 7].contains(&n) { sign == '-' } else { sign.is_ascii_digit() };
+    let part = |range| text.get(range).and_then(|part: &str| part.parse().ok()).unwrap_or(0);
+    text.chars().take(10).enumerate().all(is_sign)
+        && !text[10.min(text.len())..].starts_with(|sign: char| sign.is_ascii_digit())
+        && (1..=12).contains(&part(5..7))
+        && (1..=31).contains(&part(8..10))
 }
 
 /// Words in small letters: for a hole that did not fire, and (below) for events that no prediction can be compared with.
@@ -300,6 +318,11 @@ mod tests {
             ShotHead::read(without_colon, &mut mistakes);
             assert_eq!(mistakes.len(), 1, "{without_colon}");
         }
+        for day in ["04.05.2026", "4 May", "2026-13-04", "2026-05-045", "2026-05", "4мая2026год"] {
+            let mut mistakes = Vec::new();
+            ShotHead::read(&format!("# date: {day}"), &mut mistakes);
+            assert_eq!(mistakes.len(), 1, "{day}");
+        }
         for without_colon in ["# charge 30 kg", "# Stemming = 3 m", "# заряд 60 кг", "# tires 560 kg"]
         {
             ShotHead::read(without_colon, &mut mistakes);
@@ -308,7 +331,7 @@ mod tests {
         // Of two charges nobody knows which one belongs to the shot.
         for twice in [
             "# charge: 60 kg\n# charge: 25 kg",
-            "# date: 1\r# charge_kg: 60\r# charge: 60 kg",
+            "# date: 2026-05-04\r# charge_kg: 60\r# charge: 60 kg",
             "# cover: a\n# Cover: b",
         ] {
             ShotHead::read(twice, &mut mistakes);

@@ -8,15 +8,17 @@
 mod questions;
 mod sections;
 
+use std::iter::zip;
+
 use self::questions::SPACING;
 pub use self::questions::{
     ASSUMED, LAUNCH, LAUNCH_IS_KNOWN, NOT_KNOWN, QUESTIONS, Question, RIGID_ENDS, ROPE,
 };
 pub(super) use self::sections::{
-    LAUNCH_M_S, Shelter, USUAL, delay, header, limits, line, quoted, uncertainty,
+    LAUNCH_IS_ASSUMED, LAUNCH_M_S, Shelter, USUAL, delay, header, limits, line, quoted, uncertainty,
 };
 use self::sections::{SLEEVE, SPLICE_PERCENT, diameter_m, explained, has_sleeve};
-use super::keys::{blast_row, cable, limits, shelter, tire, uncertainty};
+use super::keys::{Key, blast_row, cable, limits, shelter, tire, uncertainty};
 use crate::sorting::sort;
 
 /// Largest number of blast rows in a starter plan.
@@ -123,8 +125,17 @@ pub fn plan(answers: &[&str; QUESTIONS.len()]) -> Result<String, String> {
             None => vec![number(part, 7)?],
         });
     }
-    let mut text = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope, is_assumed: false }
-        .sections(title, "");
+    // Whoever presses Enter has weighed and measured nothing.
+    let keys = [
+        &[&shelter::ROWS, &shelter::COLUMNS][..],
+        &[&shelter::SPACING_M],
+        &[&tire::MASS_KG],
+        &[&cable::ROPE],
+    ];
+    let offered = zip(keys, 1..).filter(|(_, n)| answers[*n].trim() == QUESTIONS[*n].offered);
+    let assumed: Vec<&Key> = offered.flat_map(|(keys, _)| keys.iter().copied()).collect();
+    let shelter = Shelter { rows, columns, spacing_m: spacing, mass_kg: mass, rope, assumed: &assumed };
+    let mut text = shelter.sections(title, "");
     for (n, under) in over_holes.into_iter().enumerate() {
         text += &header(&blast_row::SECTION);
         text += &line(&blast_row::NAME, quoted(&(n + 1).to_string()));

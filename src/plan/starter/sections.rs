@@ -10,6 +10,10 @@ use crate::ropes::catalogue;
 /// Launch velocity of a starter plan [m/s]; the user replaces it.
 pub(in crate::plan) const LAUNCH_M_S: f64 = 6.0;
 
+/// Comment in a blast row whose holes have that velocity because nobody gave one. A fit takes the comment out.
+pub(in crate::plan) const LAUNCH_IS_ASSUMED: &str =
+    "# launch_m_s of these holes is assumed: film a tire, then `shelter launch` or `shelter fit` writes it";
+
 /// A grid of tires over the blast rows. All tires have one mass, and one rope ties them.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) struct Shelter<'s> {
@@ -18,8 +22,8 @@ pub(in crate::plan) struct Shelter<'s> {
     pub spacing_m: f64,
     pub mass_kg: f64,
     pub rope: &'s str,
-    /// Whether tires and rope are assumed, because nobody was asked for them.
-    pub is_assumed: bool,
+    /// Keys whose values nobody was asked for, or left as they were offered.
+    pub assumed: &'s [&'static Key],
 }
 
 /// Outer diameter of an 18.00-25 tire [m].
@@ -34,29 +38,30 @@ pub(in crate::plan) const USUAL: Shelter<'_> = Shelter {
     spacing_m: 2.6,
     mass_kg: 280.0,
     rope: QUESTIONS[ROPE].offered,
-    is_assumed: true,
+    assumed: &[&shelter::ROWS, &shelter::COLUMNS, &tire::MASS_KG, &cable::ROPE],
 };
 
 impl Shelter<'_> {
     /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
     pub(in crate::plan) fn sections(&self, title: &str, remark: &str) -> String {
         let diameter_m = diameter_m(self.spacing_m);
+        let given = |key: &'static Key, value: &dyn Display| {
+            let is_assumed = self.assumed.iter().any(|assumed| assumed.name == key.name);
+            if is_assumed { assumed_key(key, value) } else { explained(key, value) }
+        };
         [
             line(&plan::TITLE, quoted(title)),
             format!("\n{}{remark}\n", shelter::SECTION.title),
             line(&shelter::LAYOUT, quoted(LayoutKind::Grid.name())),
-            explained(&shelter::ROWS, &self.rows),
-            explained(&shelter::COLUMNS, &self.columns),
-            explained(&shelter::SPACING_M, &self.spacing_m),
+            given(&shelter::ROWS, &self.rows),
+            given(&shelter::COLUMNS, &self.columns),
+            given(&shelter::SPACING_M, &self.spacing_m),
+            assumed_key(&shelter::LINKS, &"[\"row\", \"column\", \"diagonal\"]"),
             header(&tire::SECTION),
-            remarked(
-                &tire::MASS_KG,
-                &self.mass_kg,
-                if self.is_assumed { "assumed: weigh some" } else { "of one tire" },
-            ),
+            given(&tire::MASS_KG, &self.mass_kg),
             assumed_key(&tire::OUTER_DIAMETER_M, &diameter_m),
             header(&cable::SECTION),
-            if self.is_assumed { assumed_key } else { explained }(&cable::ROPE, &quoted(self.rope)),
+            given(&cable::ROPE, &quoted(self.rope)),
             termination(self.rope),
             remarked(&cable::SLACK_PERCENT, &2, "assumed: measure yours"),
             header(&ground::SECTION),

@@ -42,7 +42,7 @@ pub fn head(page: &Page<'_>, warnings: &[String]) -> Markup {
     };
     html! {
         div.fired {
-            p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times(delay))) }
+            p.what { (firing_instruction(page, option)) ": " (say!("{option}, rows at {times}", delay.name, option_sentences::firing_times_text(&case.plan.blast_rows, delay))) }
             @if verdict_word.verdict() == Verdict::Pass && against.is_some() {
                 p { (phrase("Judged:")) " " (phrase(verdict_word.for_people())) (only_planned(page)) }
             } @else if verdict_word.verdict() == Verdict::Pass && !page.to_be_confirmed().is_empty() {

@@ -75,7 +75,7 @@ pub struct Page<'a> {
 impl Page<'_> {
     /// Lines to confirm before the shot of the page.
     fn to_be_confirmed(&self) -> Vec<ToConfirm> {
-        let fired = self.to_be_fired.and_then(|option| self.results[option].as_ref().ok());
+        let fired = self.to_be_fired.and_then(|option| Some((option, self.results[option].as_ref().ok()?)));
         to_be_confirmed::to_be_confirmed(self.case, fired, self.files, self.standing.compared())
     }
 

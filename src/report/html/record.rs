@@ -115,7 +115,7 @@ fn confirmed(page: &Page<'_>) -> Option<String> {
 /// Text to sign: the option to be fired with its firing times and its verdict.
 fn signed(page: &Page<'_>, option: usize) -> Markup {
     let delay = &page.case.plan.delays[option];
-    let times = option_sentences::firing_times(delay);
+    let times = option_sentences::firing_times_text(&page.case.plan.blast_rows, delay);
     html! {
         (say!("{instruction}: option “{name}”, rows at {times}, ", firing_instruction(page, option), delay.name, times)) (verdict_word(page, option)) (only_planned(page))
         @if !page.standing.compared().agrees() {

@@ -21,6 +21,36 @@ pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
     plan.delays.iter().flat_map(of_option)
 }
 
+/// Line to confirm for an option whose name has words that nobody compares with the firing times, or whose blast rows are not numbered in
+/// the order of the plan: a reader may take either for another order.
+pub fn own_words(plan: &Plan, option: usize) -> Option<String> {
+    let (delay, rows) = (&plan.delays[option], &plan.blast_rows);
+    let numbers: Option<Vec<u32>> = rows.iter().map(|row| row.name.parse().ok()).collect();
+    let is_turned = numbers.is_some_and(|numbers| !numbers.is_sorted());
+    let (name, times) = (&delay.name, option_sentences::firing_times_text(rows, delay));
+    (is_turned || !is_compared(delay, rows))
+        .then(|| say!("\"{name}\" fires rows {times}: is that what its name says?", name, times))
+}
+
+/// Whether the name of an option has nothing but intervals, firing times, the order of its rows and the timing of its holes: all of these
+/// are compared with the plan.
+fn is_compared(delay: &DelayOption, rows: &[BlastRow]) -> bool {
+    let holes = delay.hole_timing.words();
+    let mut parts = delay.name.split(',').map(str::trim).filter(|part| holes.as_deref() != Some(*part));
+    let is_number = |text: &str| text.chars().all(|sign| sign.is_ascii_digit() || "./+()".contains(sign));
+    let is_unit = |text: &str| intervals_of(&format!("1{text}")).is_some();
+    let is_row = |part: &str| part.is_empty() || rows.iter().any(|row| row.name == part);
+    let is_known = |word: &str| {
+        let (number, unit) = word.split_at(word.trim_end_matches(char::is_alphabetic).len());
+        is_number(number) && (unit.is_empty() || is_unit(unit)) || word.split(['-', '>']).all(is_row)
+    };
+    let at_once = delay.name == AT_ONCE && gaps(delay).iter().all(|gap| *gap == Time::default());
+    at_once || parts.all(|part| part.split_whitespace().all(is_known))
+}
+
+/// Name of an option whose rows all fire at once.
+const AT_ONCE: &str = "all at once";
+
 /// Warning that a name says other intervals than the rows have: `42 ms` at 109 ms, `42+67 ms` at 30 and 60 ms. A number alone is an
 /// interval, too, unless it may be the number of one of `count` options.
 fn false_intervals(delay: &DelayOption, count: usize) -> Option<String> {
@@ -197,12 +227,22 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// Warnings of an option with this name and timing. The plan has the rows 1, 2, 3.
-    fn told(name: &str, timing: &str) -> Vec<String> {
+    const AS_IS: [&str; 2] = ["\"1\""; 2];
+
+    /// A plan with an option that fires its rows so, and one edit of its text.
+    fn plan(name: &str, timing: &str, edit: [&str; 2]) -> Plan {
         let text = include_str!("../../../tests/fixtures/amur-three-rows.toml");
         let (before, after) = text.split_once("name = \"9 ms\"\ninterval_ms = 9\n").expect("an option");
-        let text = format!("{before}name = \"{name}\"\n{timing}\n{after}");
-        warnings(&Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"))).collect()
+        // No other option may have the name.
+        let [before, after] =
+            [before.replace("\"all at once\"", "\"another\""), after.replace("\"42 ms\"", "\"one more\"")];
+        let text = format!("{before}name = \"{name}\"\n{timing}\n{after}").replace(edit[0], edit[1]);
+        Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    }
+
+    /// The warnings of an option that fires the rows 1, 2, 3 so.
+    fn told(name: &str, timing: &str) -> Vec<String> {
+        warnings(&plan(name, timing, AS_IS)).collect()
     }
 
     #[test]
@@ -241,6 +281,51 @@ mod tests {
             let told = told(name, &timing);
             assert_eq!(told, [format!("the option named \"{name}\" {warning}")]);
         }
+    }
+
+    /// Words of order and side are endless, in every language: who signs compares them.
+    #[test]
+    fn a_name_in_own_words_is_asked_about() {
+        let asked = |name: &str, timing: &str, rows: [&str; 2]| {
+            let plan = plan(name, timing, rows);
+            let option =
+                plan.delays.iter().position(|delay| delay.name == name).unwrap_or_else(|| panic!("{name}"));
+            own_words(&plan, option)
+        };
+        let asked_of = |name: &str| asked(name, "at_ms = [0, 42, 84]", AS_IS).is_some();
+        for name in [
+            "reverse",
+            "V-cut",
+            "обратный",
+            "42 ms from right",
+            "42 ms Nonel",
+            "all at once",
+            "as listed",
+            "north 2026",
+        ] {
+            assert!(asked_of(name), "{name}");
+        }
+        for name in [
+            "42 ms",
+            "42",
+            "42мс",
+            "0.042 s",
+            "0/42/84 ms",
+            "1-2-3 42 ms",
+            "1 > 2 > 3, 42 ms",
+            "42+42 ms",
+            "42 ms (2)",
+        ] {
+            assert!(!asked_of(name), "{name}");
+        }
+        assert_eq!(asked("all at once", "at_ms = [0, 0, 0]", AS_IS), None);
+        let holes = "interval_ms = 42\nhole_interval_ms = 17\nhole_order = \"left\"";
+        assert_eq!(asked("42 ms, holes 17 ms left", holes, AS_IS), None);
+        let turned = asked("43 ms", "interval_ms = 43", ["\"1\"", "\"9\""]);
+        assert_eq!(
+            turned.as_deref(),
+            Some("\"43 ms\" fires rows 9: 0 ms, 2: 43 ms, 3: 86 ms: is that what its name says?")
+        );
     }
 
     #[test]

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use itertools::Itertools;
 
 use super::objections::of_other_shot;
-use super::plan_warnings;
-use super::warnings::{far_limit, far_slide, turning};
+use super::warnings::{far_limits, far_slide, turning};
+use super::{false_names, plan_warnings};
 use crate::plan::assumed::{AssumedValue, assumed_values};
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::{Observations, fitted_files};
@@ -79,7 +79,7 @@ fn all(about: About, lines: impl IntoIterator<Item = String>) -> impl Iterator<I
 /// observations, and lines from `compared`: values above their band, films that were not read, and films of other blasts.
 pub fn to_be_confirmed(
     case: &Case,
-    fired: Option<&Judgement>,
+    fired: Option<(usize, &Judgement)>,
     files: &[Observations],
     compared: &Comparison,
 ) -> Vec<ToConfirm> {
@@ -100,7 +100,7 @@ pub fn to_be_confirmed(
 /// values.
 pub fn is_anything_to_be_confirmed(
     case: &Case,
-    fired: Option<&Judgement>,
+    fired: Option<(usize, &Judgement)>,
     files: impl FnOnce() -> Vec<Observations>,
     compared: &Comparison,
 ) -> bool {
@@ -109,7 +109,7 @@ pub fn is_anything_to_be_confirmed(
 
 /// Lines that a plan leaves to confirm before its shot: values that are assumed, exact or unusual, other possible slips, and
 /// warnings of the option that is `fired`.
-fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
+fn confirmed_of_plan(case: &Case, fired: Option<(usize, &Judgement)>) -> Vec<ToConfirm> {
     let unusual = case.plan.unusual();
     // Only that value counts as unusual. Another value of the same key is confirmed by itself.
     let is_unusual =
@@ -140,11 +140,12 @@ fn confirmed_of_plan(case: &Case, fired: Option<&Judgement>) -> Vec<ToConfirm> {
     let others =
         plan_warnings::to_be_looked_at(case).into_iter().chain(plan_warnings::kind_of_own_rope(case));
     let of_fired = |about, told: fn(&Case, &Judgement) -> Option<String>| {
-        all(about, fired.and_then(|judged| told(case, judged)))
+        all(about, fired.and_then(|(_, judged)| told(case, judged)))
     };
     let of_fired = of_fired(About::Turning, turning)
         .chain(of_fired(About::Slide, far_slide))
-        .chain(of_fired(About::More, far_limit));
+        .chain(all(About::More, fired.into_iter().flat_map(|(_, judged)| far_limits(case, judged))))
+        .chain(all(About::More, fired.and_then(|(option, _)| false_names::own_words(&case.plan, option))));
     // The first of equal lines stays: the line about the film is among `others`, too.
     values
         .chain(film)

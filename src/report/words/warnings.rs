@@ -113,21 +113,26 @@ fn turning_warning(case: &Case, which: &str) -> String {
     )
 }
 
-/// Limit of height over the height of the deciding shot, from which the limit gets a warning: feet for metres, or a slip of ten.
-const FAR_LIMIT: f64 = 5.0;
+/// Limit of a length over the length of the deciding shot, from which the limit gets a warning: a metre has 3.28 feet.
+const FAR_LIMIT: f64 = 3.0;
 
-/// Warning that the limit of height is far above the height that an option reaches: somebody may have meant another number.
-pub fn far_limit(case: &Case, judged: &Judgement) -> Option<String> {
-    let limit = case.limits.height;
-    let reached = judged.used_of_limit(Quantity::Height, &case.limits)? * limit;
-    let times = units::rounded(limit / reached, 0);
-    (limit > FAR_LIMIT * reached).then(|| {
-        say!(
-            "the limit of height, {} m, is {times} times what this shot reaches: is it in metres?",
-            units::short(limit),
-            times
-        )
-    })
+/// Warnings that the limit of height or of slide is far above what an option reaches: somebody may have meant another number.
+pub fn far_limits(case: &Case, judged: &Judgement) -> Vec<String> {
+    let warning = |quantity, name: &str| {
+        let limit = case.limits.get(quantity)?;
+        let reached = judged.used_of_limit(quantity, &case.limits)? * limit;
+        let times = units::rounded(limit / reached, 0);
+        (limit > FAR_LIMIT * reached).then(|| {
+            say!(
+                "the limit of {name}, {} m, is {times} times what this shot reaches: is it in metres?",
+                name,
+                units::short(limit),
+                times
+            )
+        })
+    };
+    let height = warning(Quantity::Height, phrase("height"));
+    height.into_iter().chain(warning(Quantity::Drift, phrase("slide"))).collect()
 }
 
 /// A height [m] in words, with enough decimals to differ from the limit of height. The height is unknown where the runs with

@@ -1,5 +1,7 @@
 //! Warnings about launches: surer than anybody can know them, or not of the plan's tires and charges.
 
+use std::cmp::Ordering;
+
 use crate::plan::Launch;
 use crate::plan::assumed::assumed_values;
 use crate::plan::keys::uncertainty;
@@ -17,6 +19,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         fitted_to_few(case),
         launch_below_estimate(case),
         launches_far_apart(case),
+        charges_far_apart(case),
         launches_lighter_tire(case),
         tilted_to_x(case),
     ];
@@ -126,6 +129,23 @@ fn launches_far_apart(case: &Case) -> Option<String> {
     let [slow, fast] = [slowest, fastest].map(|launch| launch.speed_m_s);
     is_told
         .then(|| say!("holes of one charge launch at {slow} and at {fast} m/s: is one a slip?", slow, fast))
+}
+
+/// Warning that holes of far different charges launch alike: the launch of one of them may have been left as it was.
+fn charges_far_apart(case: &Case) -> Option<String> {
+    let charge = |launch: &&Launch| launch.charge_kg;
+    let charged: Vec<&Launch> = case.plan.launches().filter(|launch| launch.charge_kg.is_some()).collect();
+    let by_charge = sorted_by(charged, |a, b| charge(a).partial_cmp(&charge(b)).unwrap_or(Ordering::Equal));
+    let (least, most) = (by_charge.first()?, by_charge.last()?);
+    let is_far = most.charge_kg? >= FAR_APART * least.charge_kg? && most.speed_m_s <= least.speed_m_s;
+    is_far.then(|| {
+        say!(
+            "a hole of {} kg launches at {} m/s, and one of {} kg no faster: was each filmed?",
+            least.charge_kg.unwrap_or_default(),
+            least.speed_m_s,
+            most.charge_kg.unwrap_or_default()
+        )
+    })
 }
 
 /// Warning that all launches tilt toward the larger x: a tilt without a stated direction does that.
