@@ -29,6 +29,12 @@ impl Plan {
             "not to fire",
             "draft",
             "черновик",
+            "beispiel",
+            "ejemplo",
+            "entwurf",
+            "borrador",
+            "учебн",
+            "übung",
             "не взрывать",
         ];
         let is_said = |title: &str| words.iter().any(|word| names::says(title, word));

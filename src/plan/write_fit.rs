@@ -226,6 +226,18 @@ mod tests {
         EstimateToWrite { unknown, row: None, value, sd }
     }
 
+    /// Whoever films a tire has nothing to look for in the comments: those that call the launch assumed go, and only those.
+    #[test]
+    fn a_fitted_launch_is_not_called_assumed_any_more() {
+        let listed = PLAN.replacen("launch_m_s = 6.0", &format!("{LAUNCH_IS_ASSUMED}\nlaunch_m_s = 6.0"), 1);
+        let about = |text: &str| {
+            text.lines().filter(|line| line.contains("launch") && line.contains("assumed")).count()
+        };
+        let [friction, launch] = [fitted(Unknown::Friction, 0.45, 0.02), fitted(Unknown::Launch, 1.1, 0.022)];
+        assert_eq!(about(&written(&listed, &[friction]).0), about(&listed));
+        assert_eq!(about(&written(&listed, &[launch]).0), about(&listed) - 2);
+    }
+
     /// A line without an estimate stays as it is, with its comment. A range that an estimate would narrow stays, too. The uncertainty of
     /// launches is written as the fit leaves it, in common and from shot to shot.
     #[test]

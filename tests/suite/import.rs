@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use shelter::plan::assumed::assumed_values;
 use shelter::plan::import::{Directions, Imported, plan_from_file, plan_from_holes};
 use shelter::plan::{Hole, LaunchTargets, Plan, Time, Timing};
 use shelter::study::Case;
@@ -32,6 +33,27 @@ fn listed_launches_are_estimates() {
 }
 
 /// Holes that begin a chain of their own beside another one are told: one that is not tied in fires at once.
+/// A list says nothing of launches, ballast and links: whoever reads the plan sees that the program put them in. Charges it says.
+#[test]
+fn what_a_list_does_not_say_is_marked() {
+    let written = |list: &str| {
+        let read = plan_from_holes("holes.csv", list, Directions::Vertical);
+        read.unwrap_or_else(|mistakes| panic!("{mistakes}")).text
+    };
+    let plan = written("hole,x,y,row,charge_kg\n1,0,0,1,12\n2,2.5,0,1,36\n3,0,2.5,2,12\n4,2.5,2.5,2,12\n");
+    let assumed: Vec<&str> = assumed_values(&plan).map(|value| value.line).collect();
+    for line in ["rows = 4", "columns = 4", "links = [\"row\", \"column\", \"diagonal\"]", "mass_kg = 280"] {
+        assert!(assumed.contains(&line), "{line}: {assumed:?}");
+    }
+    assert_eq!(
+        assumed.iter().filter(|line| line.starts_with("# launch_m_s of these holes is assumed")).count(),
+        2
+    );
+    assert_eq!(plan.matches("charge_kg = 12.0").count(), 3, "{plan}");
+    let launched = written("hole,x,y,row,launch_m_s\n1,0,0,1,5\n2,2.5,0,1,5\n");
+    assert!(!launched.contains("launch_m_s of these holes"), "{launched}");
+}
+
 #[test]
 fn holes_that_are_not_tied_in_are_told() {
     let list =

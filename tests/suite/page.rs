@@ -730,6 +730,17 @@ fn a_film_that_the_page_does_not_read_and_a_far_limit_have_boxes() {
         ["film.csv: this page does not read it", "is it in metres?"].map(|told| page.contains(told))
     };
     assert_eq!(boxes(&[]), [true, true]);
+    // Wherever it lies beside the plan; a list of holes is no film, and the shots of another plan are that plan's.
+    let rename = |from: &str, to: &str| std::fs::rename(path(from), path(to)).expect("renamed");
+    std::fs::write(path("holes.csv"), "hole,x,y\n1,0,0\n").expect("written");
+    for (folder, is_told) in [("duds", true), ("other.shots", false)] {
+        rename("plan.shots", folder);
+        assert_eq!(boxes(&[])[0], is_told, "{folder}");
+        rename(folder, "plan.shots");
+    }
+    rename("plan.shots/film.csv", "film.csv");
+    assert!(boxes(&[])[0]);
+    rename("film.csv", "plan.shots/film.csv");
     assert_eq!(boxes(&["--observed", &shots]), [false, true]);
     std::fs::write(&plan, PLAN).expect("written");
     assert_eq!(boxes(&["--observed", &film]), [false, false]);

@@ -58,7 +58,7 @@ pub fn names_of_films_not_given(plan: &Path, given: &[PathBuf]) -> Vec<String> {
     let mut films: Vec<PathBuf> =
         not_given.filter(|path| path.starts_with(&own) || names_quantities(path)).collect();
     sort(&mut films);
-    films.iter().map(|film| name_of(film)).collect()
+    films.iter().map(|film| name_of(film.strip_prefix(beside).unwrap_or(film))).collect()
 }
 
 /// The entries of a folder; none if it cannot be read.

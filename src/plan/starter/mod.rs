@@ -188,6 +188,7 @@ fn evenly(from: f64, to: f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::plan::Plan;
+    use crate::plan::assumed::assumed_values;
     use crate::plan::keys::Key;
 
     /// `12,5` may be one interval or two, so it is refused: nobody fires an interval that nobody asked for. The ends of a range stay as
@@ -250,6 +251,14 @@ mod tests {
         assert_eq!(text.matches("launch_m_s = 4    # assumed: put in yours").count(), 3, "{text}");
         assert!(plan.ranges_beside_the_plan().is_empty());
         assert_eq!(plan.limits.drift_m, None);
+        // Whoever presses Enter has measured nothing; an answer of his own is no assumption of the program.
+        let of_site = ["rows", "columns", "spacing_m", "mass_kg", "rope"];
+        let marked =
+            |text: &str| of_site.map(|key| assumed_values(text).any(|value| value.key() == Some(key)));
+        assert_eq!(marked(&text), [true; 5]);
+        let mut own = offered;
+        (own[1], own[2], own[3], own[4]) = ("4x10", "2.7", "281", "Polyester 24");
+        assert_eq!(marked(&super::plan(&own).expect("answers")), [false; 5]);
         // Keys that only a program writes are not offered.
         let by_hand =
             |key: &&Key| !key.name.starts_with("delay_") && key.name != uncertainty::FITTED_FROM.name;

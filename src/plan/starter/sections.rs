@@ -45,9 +45,9 @@ impl Shelter<'_> {
     /// The text of a plan before its blast rows; `remark` is a comment behind the header of the shelter.
     pub(in crate::plan) fn sections(&self, title: &str, remark: &str) -> String {
         let diameter_m = diameter_m(self.spacing_m);
-        let given = |key: &'static Key, value: &dyn Display| {
-            let is_assumed = self.assumed.iter().any(|assumed| assumed.name == key.name);
-            if is_assumed { assumed_key(key, value) } else { explained(key, value) }
+        let is_assumed = |key: &Key| self.assumed.iter().any(|assumed| assumed.name == key.name);
+        let given = |key: &Key, value: &dyn Display| {
+            if is_assumed(key) { assumed_key(key, value) } else { explained(key, value) }
         };
         [
             line(&plan::TITLE, quoted(title)),
@@ -58,7 +58,11 @@ impl Shelter<'_> {
             given(&shelter::SPACING_M, &self.spacing_m),
             assumed_key(&shelter::LINKS, &"[\"row\", \"column\", \"diagonal\"]"),
             header(&tire::SECTION),
-            given(&tire::MASS_KG, &self.mass_kg),
+            remarked(
+                &tire::MASS_KG,
+                &self.mass_kg,
+                if is_assumed(&tire::MASS_KG) { "assumed: weigh some" } else { "of one tire" },
+            ),
             assumed_key(&tire::OUTER_DIAMETER_M, &diameter_m),
             header(&cable::SECTION),
             given(&cable::ROPE, &quoted(self.rope)),

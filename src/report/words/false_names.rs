@@ -10,25 +10,26 @@ use crate::sorting::{sort, sorted_by_key};
 
 /// Warnings about false names of all options.
 pub fn warnings(plan: &Plan) -> impl Iterator<Item = String> {
-    let of_option = |delay| {
-        let rows = &plan.blast_rows;
-        let count = plan.delays.len();
-        let of_numbers = false_intervals(delay, count).or_else(|| false_number(delay));
-        let of_order = false_order(delay, rows).or_else(|| false_first(delay, rows));
-        let of_rows = [of_numbers, false_times(delay), of_order];
-        of_rows.into_iter().flatten().chain(false_hole_timing(delay))
-    };
-    plan.delays.iter().flat_map(of_option)
+    plan.delays.iter().flat_map(|delay| of_option(plan, delay))
+}
+
+fn of_option<'p>(plan: &'p Plan, delay: &'p DelayOption) -> impl Iterator<Item = String> + 'p {
+    let rows = &plan.blast_rows;
+    let of_numbers = false_intervals(delay, plan.delays.len()).or_else(|| false_number(delay));
+    let of_order = false_order(delay, rows).or_else(|| false_first(delay, rows));
+    let of_rows = [of_numbers, false_times(delay), of_order];
+    of_rows.into_iter().flatten().chain(false_hole_timing(delay))
 }
 
 /// Line to confirm for an option whose name has words that nobody compares with the firing times, or whose blast rows are not numbered in
-/// the order of the plan: a reader may take either for another order.
+/// the order of the plan: a reader may take either for another order. `None` where a warning says what the name gets wrong.
 pub fn own_words(plan: &Plan, option: usize) -> Option<String> {
     let (delay, rows) = (&plan.delays[option], &plan.blast_rows);
     let numbers: Option<Vec<u32>> = rows.iter().map(|row| row.name.parse().ok()).collect();
     let is_turned = numbers.is_some_and(|numbers| !numbers.is_sorted());
     let (name, times) = (&delay.name, option_sentences::firing_times_text(rows, delay));
-    (is_turned || !is_compared(delay, rows))
+    let is_false = of_option(plan, delay).next().is_some();
+    (!is_false && (is_turned || !is_compared(delay, rows)))
         .then(|| say!("\"{name}\" fires rows {times}: is that what its name says?", name, times))
 }
 
