@@ -427,8 +427,10 @@ fn a_pass_tells_the_nearest_assumptions_it_stands_on() {
         Arc::make_mut(&mut app.case).plan.uncertainty.launch_common_percent = stated;
         assert!(!screen.contains("tire masses differ"), "{width}:\n{screen}");
     }
-    // All of it at 80 columns, too; and the page of an example is not there to be signed.
-    let screen = text(&draw(&app, 80, 24));
+    // All of it at 80 columns, too, where a row more is there.
+    let least = text(&draw(&app, 80, 24));
+    assert!(least.contains("differ by 6 % (assumed 3 %)") && least.contains(", and more: "), "{least}");
+    let screen = text(&draw(&app, 80, 28));
     for told in ["differ by 6 % (assumed 3 %)", "tilt by 2.6° (assumed 1°)", "rope is 25 % stiffer"] {
         assert!(screen.contains(told), "{told}:\n{screen}");
     }

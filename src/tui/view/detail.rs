@@ -43,7 +43,7 @@ const CABLES: [u16; 2] = [8, 18];
 /// Least width and height for a flight beside the charts.
 const WITH_FLIGHT: (u16, u16) = (149, 9);
 /// Least, usual and greatest height of the lines above charts.
-const LINES: [u16; 3] = [6, 7, 10];
+const LINES: [u16; 3] = [6, 6, 10];
 /// Least height of the sentences of an enlarged option: more lines than a page key scrolls.
 const SENTENCES: u16 = 6;
 /// Lines above the list of changes: what fails, and what limits it.

@@ -73,9 +73,11 @@ const LIMITED: u8 = 1;
 const NEXT: u8 = 2;
 const HOLDS: u8 = 3;
 const THEN: u8 = 4;
-const HOLDS_TOO: u8 = 5;
-const DEPENDS: u8 = 6;
-const STRENGTHEN: u8 = 7;
+/// A badge says it, too.
+const TURNED: u8 = 5;
+const HOLDS_TOO: u8 = 6;
+const DEPENDS: u8 = 7;
+const STRENGTHEN: u8 = 8;
 
 /// The lines of the selected option, none wider than `width`, at most `rows`. The least important lines are dropped. Rows that are left
 /// show the cables that are pulled hardest.
@@ -123,7 +125,7 @@ fn said(app: &App, judged: &Judgement, room: usize) -> Vec<Said> {
         let height = warnings::turned_words(&app.case, height);
         fitting(vec![format!("if tires turned they rose over {height}, limit {limit}")], "", room)
     });
-    lines.extend(turned.map(|text| said(HOLDS, "turned", text, app.theme.caution())));
+    lines.extend(turned.map(|text| said(TURNED, "turned", text, app.theme.caution())));
     // The end of a thin pass has its own label, apart from what the pass holds until.
     let is_found = app.assumptions.get(app.selected).and_then(Option::as_deref);
     let is_thin = is_found.is_some_and(Assumptions::pass_as_stated) && app.thin(app.selected).is_some();
