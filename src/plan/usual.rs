@@ -261,6 +261,21 @@ mod tests {
         );
     }
 
+    /// No page permits a shot on another planet.
+    #[test]
+    fn gravity_is_that_of_the_earth() {
+        for (gravity, is_of_earth) in
+            [("9.81", true), ("9.7", true), ("9.9", true), ("9.69", false), ("98.1", false)]
+        {
+            let text = format!(
+                "{}\n[simulation]\ngravity_m_s2 = {gravity}\n",
+                include_str!("../../tests/fixtures/amur-three-rows.toml")
+            );
+            let plan = Plan::parse("", &text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            assert_eq!(plan.has_gravity_of_earth(), is_of_earth, "{gravity}");
+        }
+    }
+
     #[test]
     fn slips_of_the_pen_are_told() {
         assert_eq!(told("mass_kg = 280", "mass_kg = 280"), []);

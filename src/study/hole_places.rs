@@ -170,6 +170,34 @@ mod tests {
         }
     }
 
+    /// A tire of radius 0.8 m covers a hole up to 0.8 m aside and 0.4 m high; the larger share counts, and a tire that comes over the hole
+    /// covers it instead.
+    #[test]
+    fn a_hole_is_uncovered_by_distance_or_height_of_the_best_tire() {
+        let case = case(0.4, 1.6);
+        let firing = &case.shots[0].firings[0];
+        let share = |moved: [f64; 3], next: [f64; 3]| {
+            uncovering(&case, firing, |tire| Vector3::from(if tire == firing.tire { moved } else { next }))
+        };
+        let near = |share: f64, exact: f64| assert!((share - exact).abs() < 1e-12, "{share} is not {exact}");
+        near(share([0.0; 3], [0.0; 3]), 0.4 / 0.8);
+        near(share([0.0, 0.0, 0.3], [0.0; 3]), 0.3 / 0.4);
+        near(share([-0.4, 0.0, 0.0], [0.0; 3]), 0.8 / 0.8);
+        // The next tire lies 1.6 m from the hole, and comes nearer.
+        near(share([0.0, 0.0, 9.0], [0.0; 3]), 1.6 / 0.8);
+        near(share([0.0, 0.0, 9.0], [-1.4, 0.0, 0.0]), 0.2 / 0.8);
+        // As long as its own tire covers a hole, no other one counts.
+        near(share([0.0; 3], [-1.6, 0.0, 0.0]), 0.4 / 0.8);
+    }
+
+    #[test]
+    fn holes_under_no_tire_are_counted() {
+        for (x, count) in [(0.79, 0), (0.81, 1)] {
+            let case = case(x, 1.6);
+            assert_eq!(count_under_no_tire(&case, &case.shots[0]), count, "{x}");
+        }
+    }
+
     /// Tires of 1.6 m, 2 m apart. A hole is reported from 0.4 m on, lies under no tire from 0.8 m on, and may belong to the next
     /// tire from 0.93 m on (2 √(0.05² + 0.05²) = 0.14 m nearer to one). Without a diameter, the 2 m to the next tire count as the
     /// diameter.

@@ -261,6 +261,69 @@ mod tests {
     use super::super::tests::parsed;
     use super::super::to_be_looked_at;
 
+    /// What is asked about a row of holes at these places [m], fired so, under 2 x 3 tires 2 m apart.
+    fn asked(places: &[[f64; 2]], diameter_m: f64, times: &str) -> String {
+        let hole = |[x, y]: &[f64; 2]| format!("{{ x_m = {x}, y_m = {y}, launch_m_s = 6 }}");
+        let holes = places.iter().map(hole).join(", ");
+        let text = format!(
+            "shelter = {{ layout = \"grid\", rows = 2, columns = 3, spacing_m = 2 }}\n\
+             tire = {{ mass_kg = 280, outer_diameter_m = {diameter_m} }}\n\
+             cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}\nground = {{ friction = 0.5 }}\n\
+             blast_row = [{{ name = \"1\", holes = [{holes}] }}]\n\
+             limits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\ndelay = [{{ name = \"1\", interval_ms = 0, {times} }}]\n"
+        );
+        to_be_looked_at(&parsed(text)).join("\n")
+    }
+
+    /// Whoever wires holes as they are listed, or as a survey puts them, may fire a shot that nobody judged.
+    #[test]
+    fn holes_whose_order_from_the_left_is_not_the_listed_one_are_asked_about() {
+        let [left, centre] =
+            ["left", "centre"].map(|order| format!("hole_interval_ms = 17, hole_order = \"{order}\""));
+        let otherwise = "row 1: its holes are not listed from left to right, and `hole_order` goes by their places: the left one is hole 2, tire 1:1";
+        let turned = [[4.0, 0.0], [0.0, 0.0], [2.0, 0.0]];
+        assert!(asked(&turned, 1.6, &left).contains(otherwise), "{}", asked(&turned, 1.6, &left));
+        let in_turn = [turned[1], turned[2], turned[0]];
+        assert!(!asked(&in_turn, 1.6, &left).contains("not listed from left to right"));
+        assert!(!asked(&turned, 1.6, &centre).contains("not listed from left to right"));
+        assert!(!asked(&turned, 1.6, "hole_interval_ms = 0").contains("not listed from left to right"));
+        let survey = "row 1: a survey decides which of its holes 2 and 3 counts as the left one";
+        let beside = [[0.0, 0.0], [3.9, 0.0], [4.0, 0.8]];
+        assert!(asked(&beside, 1.6, &left).contains(survey), "{}", asked(&beside, 1.6, &left));
+        assert!(!asked(&in_turn, 1.6, &left).contains("a survey decides"));
+        assert!(!asked(&beside, 1.6, "hole_interval_ms = 0").contains("a survey decides"));
+    }
+
+    /// The worst hole of each kind is named: under no tire, between two, and beside its own.
+    #[test]
+    fn holes_beside_their_tires_are_told() {
+        let told = |places: &[[f64; 2]], diameter_m| {
+            let all = asked(places, diameter_m, "hole_interval_ms = 0");
+            let of_tires = |line: &&str| line.contains("holes lie ") && line.contains("m from tire");
+            all.lines().filter(of_tires).map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(told(&[[0.0, 0.0], [2.0, 0.0]], 1.6), [""; 0]);
+        assert_eq!(
+            told(&[[0.5, 0.0], [2.6, 0.0], [4.0, 0.0]], 1.6),
+            [
+                "2 of 3 holes lie beside their tires, which are pushed aside: row 1, hole 2 is 0.60 m from tire 1:2"
+            ]
+        );
+        assert_eq!(
+            told(&[[0.81, 0.0], [2.5, 0.0]], 1.6),
+            [
+                "1 of 2 holes lie under no tire, and the nearest gets the whole launch: row 1, hole 1 is 0.81 m from tire 1:1",
+                "1 of 2 holes lie beside their tires, which are pushed aside: row 1, hole 2 is 0.50 m from tire 1:2",
+            ]
+        );
+        assert_eq!(
+            told(&[[0.97, 0.0], [4.0, 0.0]], 0.0),
+            [
+                "1 of 2 holes lie between two tires, and either may get the launch: row 1, hole 1 is 0.97 m from tire 1:1"
+            ]
+        );
+    }
+
     #[test]
     fn duds_of_surface_delays_are_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");
@@ -317,7 +380,7 @@ mod tests {
         }
     }
 
-    /// A limit in kg_to_the_gram, or with a zero too many: all holes of the plan stay far below it.
+    /// A limit in grams, or with a zero too many: all holes of the plan stay far below it.
     #[test]
     fn a_limit_that_all_holes_together_keep_is_asked_about() {
         let site = include_str!("../../../../plans/amur-three-rows.toml");

@@ -179,6 +179,58 @@ mod tests {
         }
     }
 
+    /// A tripled charge with the launch of the others is faster than written.
+    #[test]
+    fn charges_that_differ_with_one_launch_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |first: &str| {
+            let all = site.replace("launch_m_s = 6.0", "launch_m_s = 6.0\ncharge_kg = 12");
+            let text = all.replacen("launch_m_s = 6.0\ncharge_kg = 12", first, 1);
+            of_plan(&parsed(text)).into_iter().find(|line| line.contains("was each filmed?"))
+        };
+        let asked = "a hole of 12 kg launches at 6 m/s, and one of 36 kg no faster: was each filmed?";
+        assert_eq!(told("launch_m_s = 6.0\ncharge_kg = 36").as_deref(), Some(asked));
+        assert!(told("launch_m_s = 6.0\ncharge_kg = 18").is_some());
+        for first in ["launch_m_s = 6.0\ncharge_kg = 17", "launch_m_s = 9.0\ncharge_kg = 36"] {
+            assert_eq!(told(first), None, "{first}");
+        }
+    }
+
+    #[test]
+    fn a_launch_that_is_an_estimate_or_below_one_is_told() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |changes: &[[&str; 2]]| {
+            let text = changes.iter().fold(site.to_owned(), |text, [old, new]| text.replace(old, new));
+            of_plan(&parsed(text)).join("\n")
+        };
+        let estimated =
+            "launch estimated: `launch_common_percent = 50` says that nobody observed this velocity";
+        assert!(told(&[["launch_common_percent = 3 ", "launch_common_percent = 50 "]]).contains(estimated));
+        assert!(!told(&[]).contains("launch estimated"));
+        let slower = "is slower than the middle of what charge and stemming say";
+        let blast = |speed: &str| {
+            let all = format!("launch_m_s = {speed}\ncharge_kg = 60\nstemming_m = 2\nhole_diameter_mm = 115");
+            told(&[["launch_m_s = 6.0", &all]])
+        };
+        assert!(blast("0.6").contains(slower), "{}", blast("0.6"));
+        assert!(!blast("60").contains(slower) && !told(&[]).contains(slower));
+    }
+
+    /// A launch that was filmed under a heavy tire is faster under a light one.
+    #[test]
+    fn a_lighter_tire_over_a_hole_is_asked_about() {
+        let told = |mass: &str| {
+            let list = format!(
+                "shelter = {{ layout = \"list\", tire = [{{ x_m = 0, y_m = 0, mass_kg = {mass} }}, {{ x_m = 2.6, y_m = 0 }}], cable = [{{ from = 1, to = 2 }}] }}\n\
+                 tire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}\ncable = {{ rope = \"Polyester 24\", termination_percent = 70 }}\n\
+                 ground = {{ friction = 0.5 }}\nblast_row = [{{ name = \"1\", under_tires = [1], launch_m_s = 5 }}]\n\
+                 limits = {{ flight_height_m = 1.5, cable_safety_factor = 1.5 }}\ndelay = [{{ name = \"0 ms\", interval_ms = 0 }}]\n"
+            );
+            of_plan(&parsed(list)).join("\n").contains("was it filmed with so light a tire?")
+        };
+        assert_eq!(["265", "266", "300"].map(told), [true, false, false]);
+    }
+
     /// Chance may have made the launches of a plan that was fitted to one film. Nobody knows a launch to a percent without a film.
     #[test]
     fn launches_that_nobody_can_know_so_well_are_told() {
