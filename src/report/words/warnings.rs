@@ -228,6 +228,11 @@ pub fn count_uncovered<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::judge::grounds::Evidence;
+    use crate::study::samples::failure_bounds::ErrorShare;
+    use crate::study::samples::random_shot::Input;
+    use crate::study::samples::sample::{Sample, SampleRun};
+    use crate::study::samples::sampled_shot::SampledShot;
     use crate::study::standing::tests::{case, passing};
 
     /// A passing option gets a warning where turning tires would exceed the limit of height, another option does not. Several such
@@ -253,5 +258,74 @@ mod tests {
             turned.len() == 1 && turned[0].contains("over 2.40 m to 2.50 m (2 options; most with 20 ms)"),
             "{told:?}"
         );
+    }
+
+    /// Holes that fire under a raised tire are told of one option, of one shot of a study, and counted over the shots of a study. Of options
+    /// that do not pass, as many are told as fit, and how many more there are.
+    #[test]
+    fn holes_under_a_raised_tire_are_told() {
+        let cover = |uncovered| Cover { holes: 10, uncovered, height: 0.5, shift: 0.25, ..Cover::NONE };
+        let words = "2 of 10 holes fire under a tire in the air or moved aside, up to 0.50 m high and 0.25 m aside: the model gives it the \
+                     whole launch";
+        assert_eq!((uncovered(&cover(0)), uncovered(&cover(2)).as_deref()), (None, Some(words)));
+        let shot = |uncovered| ShotSummary { cover: cover(uncovered), ..ShotSummary::FAILED_RUN };
+        assert_eq!(uncovered_shot("the worst", &shot(2)), Some(format!("the worst: {words}")));
+        assert_eq!(uncovered_shot("the worst", &shot(0)), None);
+        let counted = |shots: &[ShotSummary]| count_uncovered("intervals tried", shots.iter());
+        assert_eq!(counted(&[shot(0), shot(0)]), None);
+        let of_three = counted(&[shot(0), shot(1), shot(3)]).expect("a warning");
+        assert!(
+            of_three.starts_with("of 3 intervals tried 2 have holes that fire under a tire"),
+            "{of_three}"
+        );
+        let case = case();
+        let mut judged = passing(&case, 500);
+        judged.checked.estimates.drift.value = 0.0;
+        assert_eq!(of_option(&case, 0, &judged), [""; 0]);
+        judged.checked.cover = cover(2);
+        assert_eq!(of_option(&case, 0, &judged), [words]);
+        judged.checked.verdict = Verdict::Fail;
+        let all: OptionResults = (0..5).map(|_| Ok(judged.clone())).collect();
+        let told = of_options(&case.with_options(&[0, 1, 2, 3, 4]), &all, None);
+        assert_eq!(told[MOST_OF_A_KIND..], ["2 more such warnings, of 5 options in all"], "{told:?}");
+        assert!(told[0].starts_with("option all at once: 2 of 10 holes"), "{told:?}");
+    }
+
+    /// Slides are told from a share of the distance between tied tires on: by the planned shot, or by the sampled shots where these slide
+    /// farther. A plan that limits the slide judges it instead.
+    #[test]
+    fn a_far_slide_is_told() {
+        let mut case = case();
+        let far = FAR_DRIFT_SHARE * case.plan.layout.widest_tie();
+        let told = |case: &Case, planned: f64, shots: f64| {
+            let mut sampled = SampledShot::new(case, None, ErrorShare::Whole, false);
+            let (verdict, breaks) = (Verdict::Pass, Verdict::Pass);
+            let (uncovering, height, tire, force, cable) = (0.0, 1.0, 0, 1.0, 0);
+            let run = SampleRun { verdict, uncovering, breaks, height, tire, force, cable, drift: shots };
+            let samples =
+                (0..500).map(|number| Sample { number, run, finer: None, inputs: [1.0; Input::ALL.len()] });
+            samples.for_each(|sample| sampled.push(sample));
+            let mut judged = Judgement { sampled: Evidence::of(sampled), ..passing(case, 1) };
+            judged.checked.estimates.drift.value = planned;
+            far_slide(case, &judged)
+        };
+        assert_eq!(told(&case, far, far), None);
+        let words = told(&case, far + 0.01, 0.0).expect("a warning");
+        assert!(
+            words.starts_with(&format!(
+                "1 shot in 100 throws a tire farther than {:.2} m: not checked",
+                far + 0.01
+            )),
+            "{words}"
+        );
+        assert!(told(&case, 0.0, far + 0.01).is_some());
+        let mut alone = Judgement::of_planned_alone(passing(&case, 1).checked);
+        alone.checked.estimates.drift.value = far + 0.01;
+        assert!(
+            far_slide(&case, &alone)
+                .is_some_and(|words| words.starts_with("the planned shot moves a tire as far as "))
+        );
+        case.limits.drift = Some(9.0);
+        assert_eq!(told(&case, far + 0.01, far + 0.01), None);
     }
 }
