@@ -18,7 +18,8 @@ pub enum Verdict {
     /// Value + error is within every limit, and nothing else keeps the shot from passing.
     Pass,
     /// Neither pass nor fail. A value is too near its limit even at the finest step allowed; or the run ends too early, loses
-    /// energy or has no result; or the samples do not decide.
+    /// energy or has no result; or the samples do not decide; or a
+    /// hole fires under no tire, a confirmation is awaited, the launch is an estimate, or duds are not known.
     Undecided,
     /// Value − error exceeds a limit, a cable breaks, too much fires within 8 ms, or surely more samples fail than accepted.
     Fail,

@@ -1,11 +1,12 @@
 //! `shelter init`: a commented starter plan.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::arguments::LookArguments;
+use super::print::print_text;
 use super::status::Status;
 use super::tell;
 use crate::file;
@@ -42,7 +43,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
         },
     };
     let Some(path) = arguments.file.as_ref().filter(|path| path.as_os_str() != "-") else {
-        io::stdout().write_all(text.as_bytes())?;
+        print_text(&text)?;
         return Ok(Status::Pass);
     };
     file::create(path, &text)?;

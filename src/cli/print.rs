@@ -23,7 +23,7 @@ pub fn print(reports: &[Report], format: FormatArg, look: &LookArguments) -> io:
         FormatArg::Json => json::json(reports)?,
         FormatArg::Csv | FormatArg::CsvSemicolon => csv::csv(reports, format.separators())?,
     };
-    print_beside_verdict(&text)?;
+    print_text(&text)?;
     Ok(Status::of(reports))
 }
 
@@ -55,15 +55,9 @@ pub fn print_warnings(reports: &[Report]) {
     }
 }
 
-/// Prints a text. If the reader of the text has gone away, that is no error: the exit status still states the verdict.
-pub fn print_beside_verdict(text: &str) -> io::Result<()> {
-    let printed = print_text(text);
-    printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
-}
-
-/// Prints a finished text.
+/// Prints a finished text. If the reader of the text has gone away, that is no error: the exit status still states the verdict.
 pub fn print_text(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()
+    let printed = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    printed.or_else(|error| if error.kind() == io::ErrorKind::BrokenPipe { Ok(()) } else { Err(error) })
 }

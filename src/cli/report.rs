@@ -10,7 +10,7 @@ use super::arguments::{ComputeArguments, FormatArg, LangArg, LookArguments, Verd
 use super::fit::read_observations;
 use super::judge_plans::{JudgedCase, print_judged_plans};
 use super::load_plans::open_option;
-use super::print::{print_beside_verdict, print_warnings};
+use super::print::{print_text, print_warnings};
 use super::run_study::run_study;
 use super::standing::{observation_record, standing_now};
 use super::status::{Status, failed, was_interrupted, wrong};
@@ -160,7 +160,7 @@ fn write_page(arguments: &Arguments, look: &LookArguments, is_written: &mut bool
         })
     });
     if output.as_os_str() == "-" {
-        print_beside_verdict(&page)?;
+        print_text(&page)?;
     } else {
         // The page may go to a pipe. If its reader leaves, nobody has read the page, so that is an error here.
         file::save(output, &page)?;

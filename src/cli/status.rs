@@ -64,6 +64,7 @@ pub fn note_unsaved() {
 pub fn ended(result: io::Result<Status>) -> ExitCode {
     let status = match result {
         Ok(status) => status,
+        // Only `trace` prints row by row, and it has no verdict. What prints a text never gets here (`print_text`).
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Status::Pass,
         Err(error) => {
             tell!("error: {error}");

@@ -87,6 +87,8 @@ pub fn uncovering(case: &Case, firing: &Firing, moved: impl Fn(usize) -> Vector3
         (moved.z / (HIGH * radius)).max(away.norm() / radius)
     };
     let own = of(firing.tire);
+    // What is no number covers nothing.
+    let own = if own.is_nan() { f64::INFINITY } else { own };
     if own <= 1.0 { own } else { (0..scene.tire_count()).map(of).fold(own, f64::min) }
 }
 
@@ -186,6 +188,7 @@ mod tests {
         // The next tire lies 1.6 m from the hole, and comes nearer.
         near(share([0.0, 0.0, 9.0], [0.0; 3]), 1.6 / 0.8);
         near(share([0.0, 0.0, 9.0], [-1.4, 0.0, 0.0]), 0.2 / 0.8);
+        assert_eq!(share([f64::NAN; 3], [f64::NAN; 3]), f64::INFINITY);
         // As long as its own tire covers a hole, no other one counts.
         near(share([0.0; 3], [-1.6, 0.0, 0.0]), 0.4 / 0.8);
     }

@@ -12,7 +12,8 @@ use nalgebra::{Vector2, Vector3};
 
 pub use mirror::Mirror;
 pub use shot::{
-    ASSUMED_PUSH_DEPTH, BeginnerFires, Firing, FiringNumbers, PushLine, Shot, Wiring, direction_of_slope,
+    ASSUMED_PUSH_DEPTH, BeginnerFires, Firing, FiringNumbers, PushLine, Shot, Side, Wiring,
+    direction_of_slope,
 };
 
 /// The shelter at rest, before any hole fires.

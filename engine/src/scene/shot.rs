@@ -27,9 +27,9 @@ pub struct Firing {
     /// Place of the hole in its row, counted from the left, from 0. It tells the sides of a row apart if its holes fire one after
     /// another.
     pub from_left: usize,
-    /// Side of the row to which the hole belongs, from 0. [`Shot::with_dud`] sets the side, because the remaining firings no longer
-    /// show it.
-    pub side: Option<usize>,
+    /// Side of the row to which the hole belongs. [`Shot::with_dud`] sets the side in a row that has lost a hole, because the remaining
+    /// firings no longer show it.
+    pub side: Option<Side>,
     /// Explosive in the hole [kg]; 0 if the plan gives none.
     pub charge: f64,
     /// Line along which the hole pushes.
@@ -42,6 +42,15 @@ pub struct Firing {
 pub struct FiringNumbers {
     tire: usize,
     numbers: [u64; 11],
+}
+
+/// Side of a row that has lost a hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Side {
+    /// Number of the side, from 0.
+    pub number: usize,
+    /// Whether the whole row, before it lost a hole, began with one hole alone.
+    pub row_begins_alone: bool,
 }
 
 /// Line along which a hole pushes its tire: from a point below the mouth of the hole to the centre of the tire.
@@ -211,13 +220,18 @@ impl Shot {
         Self { firings: Self::from_firings(firings).firings, ..*self }
     }
 
-    /// The same shot without hole `dud` and without the holes that do not fire because of it. The remaining holes keep their sides.
+    /// The same shot without hole `dud` and without the holes that do not fire because of it. The remaining holes of rows that lose a hole
+    /// keep their sides. In the other rows every wiring stays possible.
     pub fn with_dud(&self, dud: usize, wiring: Wiring) -> Self {
         let lost = self.lost_with((0..self.firings.len()).map(|n| n == dud).collect(), wiring);
         let mut firings = self.firings.clone();
-        for (_, chains) in self.rows_of_chains(wiring) {
-            for (side, chain) in chains.iter().enumerate() {
-                chain.iter().for_each(|&n| firings[n].side = Some(side));
+        for (row, chains) in self.rows_of_chains(wiring) {
+            if !chains.iter().flatten().any(|&n| lost[n]) {
+                continue;
+            }
+            let row_begins_alone = self.begins_alone(&self.beginners(row, &chains));
+            for (number, chain) in chains.iter().enumerate() {
+                chain.iter().for_each(|&n| firings[n].side = Some(Side { number, row_begins_alone }));
             }
         }
         let left = firings.into_iter().zip(lost).filter(|(_, lost)| !lost).map(|(firing, _)| firing);
@@ -240,10 +254,8 @@ impl Shot {
                 let dead = chain.iter().position(|&n| lost[n]).unwrap_or(chain.len());
                 chain[dead..].iter().for_each(|&n| lost[n] = true);
             }
-            let begins = self.row_begins(row);
-            let beginners = chains.iter().map(|chain| chain[0]).filter(|&n| self.firings[n].time == begins);
-            let beginners: Vec<usize> = beginners.collect();
-            let begins_alone = beginners.len() == 1;
+            let (begins, beginners) = (self.row_begins(row), self.beginners(row, &chains));
+            let begins_alone = self.begins_alone(&beginners);
             let takes_later_rows = begins_alone || wiring.beginner_fires != BeginnerFires::Side;
             let takes_row = begins_alone || wiring.beginner_fires == BeginnerFires::RowAndLaterRows;
             if takes_later_rows && beginners.iter().any(|&n| lost[n]) {
@@ -257,6 +269,18 @@ impl Shot {
             }
         }
         lost
+    }
+
+    /// The first hole of each chain of a row that begins with the row.
+    fn beginners(&self, row: usize, chains: &[Vec<usize>]) -> Vec<usize> {
+        let begins = self.row_begins(row);
+        chains.iter().map(|chain| chain[0]).filter(|&n| self.firings[n].time == begins).collect()
+    }
+
+    /// Whether the row of these `beginners` began with one hole alone, when it was whole.
+    fn begins_alone(&self, beginners: &[usize]) -> bool {
+        let alone = |&n: &usize| self.firings[n].side.is_none_or(|side| side.row_begins_alone);
+        beginners.len() == 1 && beginners.iter().all(alone)
     }
 
     /// Time at which a blast row begins to fire [s].
@@ -289,7 +313,7 @@ impl Shot {
             // The number of a tire does not show its side: the tires of a list lie in any order.
             let from_left = together.iter().sorted_by_key(|&&n| self.firings[n].from_left);
             for (nth, &hole) in from_left.enumerate() {
-                let side = self.firings[hole].side.unwrap_or(first + nth);
+                let side = self.firings[hole].side.map_or(first + nth, |side| side.number);
                 chains.resize(chains.len().max(side + 1), Vec::new());
                 chains[side].push(hole);
             }
@@ -353,13 +377,13 @@ impl Shot {
         (self.greatest_sum_within(window, |firing| firing.charge) * 1e6).round() / 1e6
     }
 
-    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out. Times are rounded to 1 µs, so that
-    /// holes planned a window apart do not count together.
+    /// Greatest sum of `weight` over the firings within any `window` [s], its end left out. Times are rounded to 1 ns, as plans state
+    /// them, so that holes planned a window apart do not count together.
     fn greatest_sum_within(&self, window: f64, weight: impl Fn(&Firing) -> f64) -> f64 {
-        let microseconds = |time: f64| (time * 1e6).round();
+        let nanoseconds = |time: f64| (time * 1e9).round();
         let sum_from = |first: usize| {
-            let end = microseconds(self.firings[first].time) + microseconds(window);
-            let within = self.firings[first..].iter().take_while(|firing| microseconds(firing.time) < end);
+            let end = nanoseconds(self.firings[first].time) + nanoseconds(window);
+            let within = self.firings[first..].iter().take_while(|firing| nanoseconds(firing.time) < end);
             within.map(&weight).sum::<f64>()
         };
         // Holes that fire together begin the same window, so the first of them is enough.
@@ -371,6 +395,62 @@ impl Shot {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two rows that are fired from both ends, the second one 42 ms after the first. The middle hole of a row may hang on either side.
+    fn from_both_ends() -> Shot {
+        let hole = |row: usize, number: usize| {
+            let time = 42e-3 * row as f64 + if number == 1 { 17e-3 } else { 0.0 };
+            Firing { row, number, from_left: number, ..Firing::up(time, 3 * row + number, 6.0) }
+        };
+        let holes = [0, 1].into_iter().cartesian_product([0, 1, 2]).map(|(row, number)| hole(row, number));
+        Shot { fired_through: true, ..Shot::from_firings(holes.collect()) }
+    }
+
+    /// A dud in one row leaves open on which side the middle hole of the other row hangs: samples of the shot try both.
+    #[test]
+    fn a_dud_decides_nothing_about_rows_that_lose_no_hole() {
+        let shot = from_both_ends();
+        let last =
+            shot.firings.iter().position(|firing| (firing.row, firing.number) == (1, 1)).expect("a hole");
+        let after = shot.with_dud(last, Wiring::default());
+        assert_eq!(after.firings.len(), 5);
+        let lost_by = |first: [usize; 2]| -> Vec<usize> {
+            let duds =
+                after.firings.iter().map(|firing| [firing.row, firing.number] == first).collect::<Vec<_>>();
+            Wiring::all()
+                .map(|wiring| after.lost_with(duds.clone(), wiring).into_iter().filter(|lost| *lost).count())
+                .collect()
+        };
+        // By wiring the middle hole is lost with the left hole of row 0, or with the right one.
+        let [left, right] = [lost_by([0, 0]), lost_by([0, 2])];
+        assert_eq!([left[0], left[1]], [2, 1]);
+        assert_eq!([right[0], right[1]], [1, 2]);
+    }
+
+    /// Of two holes that begin a row together one is a dud. The other still fires its side alone, not the later rows.
+    #[test]
+    fn a_beginner_that_is_left_does_not_begin_alone() {
+        let shot = from_both_ends();
+        let side = Wiring::default();
+        let after = shot.with_dud(0, side);
+        let left: Vec<[usize; 2]> = after.firings.iter().map(|firing| [firing.row, firing.number]).collect();
+        assert_eq!(left, [[0, 2], [1, 0], [1, 2], [1, 1]]);
+        assert_eq!(after.lost_with(vec![true, false, false, false], side), [true, false, false, false]);
+        // As a row that never had another beginner it takes the later row along.
+        let alone =
+            Shot { fired_through: true, ..Shot::from_firings(vec![shot.firings[0], shot.firings[3]]) };
+        assert_eq!(alone.lost_with(vec![true, false], side), [true, true]);
+    }
+
+    /// A detonator is programmed in tenths of a millisecond or less: half a microsecond is no window.
+    #[test]
+    fn holes_that_fire_just_within_a_window_count_together() {
+        let count = |apart: f64| {
+            Shot::from_firings(vec![Firing::up(0.1, 0, 6.0), Firing::up(0.1 + apart, 1, 6.0)])
+                .most_holes_within(8e-3)
+        };
+        assert_eq!([7.9996e-3, 8e-3, 8.0004e-3].map(count), [2, 1, 1]);
+    }
 
     /// In binary, ten times 8.7 add up to 87.00000000000001, which would exceed a limit of 87 kg.
     #[test]

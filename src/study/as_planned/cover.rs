@@ -11,7 +11,8 @@ use crate::verdict::Verdict;
 
 /// Height above which a tire counts as being in the air [m].
 const IN_AIR: f64 = 0.01;
-/// Shift over the widest distance of tied tires above which a tire counts as no longer over its hole: another tire is then as near.
+/// Share of the widest distance between tied tires. A tire that has shifted by more no longer counts as over its hole: another tire is
+/// then as near.
 const ASIDE: f64 = 0.5;
 
 /// The cover over the holes of a shot, each at its firing time.

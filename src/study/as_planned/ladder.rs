@@ -17,8 +17,8 @@ pub struct Finding<T> {
 /// Runs a ladder of steps, from the coarsest to the finest, and returns the last finding. No step runs twice.
 ///
 /// 1. The coarser neighbors of the step `first` [s] run first, then `first`, then finer steps.
-/// 2. From the second run on, `examine` is called after each run. It gets all runs so far, and whether no finer run can follow. The
-///    last run gives the values, the others give the errors.
+/// 2. After `first` and after each finer run, `examine` is called, once there are two runs. It gets all runs so far, and whether no
+///    finer run can follow. The last run gives the values, the others give the errors.
 /// 3. If `fixed`, the ladder ends at `first`. If every coarser neighbor failed, one finer run gives the error. It is put before
 ///    `first`, so that the values stay at `first`.
 ///

@@ -25,8 +25,8 @@ const COARSER: i32 = 6;
 /// and 2 % of the forces, at 400 intervals up to 1.2 s of three rows. With the factor alone they leave out 4 and 15 %. The test
 /// `errors_of_quick_checks_hold` counts them.
 const ERROR_FACTOR: f64 = 2.5;
-/// Least error over the value at half the coarsest step, where a pass may end first. Coarse runs may agree by chance. This is less
-/// likely the more runs agree: half the step leaves a sixteenth.
+/// Least error at half the coarsest step, where a pass may end first, as a share of the value. Coarse runs may agree by chance. The least
+/// error falls with the fourth power of the step: the more runs agree, the less it is chance.
 const LEAST_ERROR: f64 = 0.02;
 /// Factor on the error of a quick check with which a pass must still stand. This is 4.5 times the error that a check would report
 /// for the same runs, half as much again as a check requires, because nothing looks at such a shot again.

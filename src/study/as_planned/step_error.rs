@@ -44,13 +44,16 @@ pub fn widened(error: f64, between: f64, pairs: impl IntoIterator<Item = [f64; 2
     if greatest > FAR_ERROR_FACTOR * error { greatest } else { error }
 }
 
-/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbors; 0 without neighbors.
+/// Estimated error of `value`, computed at `step`, from `(step, value)` of its neighbors; infinite without neighbors, or if
+/// one of them is no number.
 pub fn estimate(step: f64, value: f64, neighbours: impl IntoIterator<Item = (f64, f64)>) -> f64 {
     let estimates = neighbours.into_iter().map(|(other, near)| {
         let ratio = other / step;
         ((near - value) / (ratio * ratio - 1.0)).abs()
     });
-    MARGIN * estimates.fold(0.0, f64::max)
+    // 0 would say that the value is exact, and `max` passes over what is no number.
+    let known = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
+    MARGIN * estimates.map(known).reduce(f64::max).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]
@@ -59,6 +62,13 @@ mod tests {
 
     fn ladder(value: impl Fn(f64) -> f64) -> f64 {
         estimate(1.0, value(1.0), (1..=4).map(|n| RATIO.powi(n)).map(|step| (step, value(step))))
+    }
+
+    #[test]
+    fn what_is_not_known_is_not_exact() {
+        assert_eq!(estimate(1.0, 7.0, []), f64::INFINITY);
+        assert_eq!(estimate(1.0, 7.0, [(2.0, 7.0), (4.0, f64::NAN)]), f64::INFINITY);
+        assert_eq!(estimate(1.0, 7.0, [(2.0, 7.0)]), 0.0);
     }
 
     #[test]

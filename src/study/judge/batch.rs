@@ -312,18 +312,14 @@ impl<'a> Batch<'a> {
         self.find(fails, |context, option, &fails| {
             let shot = &context.case.shots[option];
             let is_sampled = context.case.plan.limits.withstands_one_dud && !fails;
-            let both = catch_panic(|| {
-                let one_dud = judge_one_dud(context, shot, is_sampled.then_some(sampling), fails)?;
-                let one_dud = one_dud.map(Box::new);
-                let next_tires = judge_next_tires(context, shot)?;
-                let turned_height =
-                    if fails { Some(None) } else { turned_height(context, option, sampling.seed)? };
-                Ok(Part::Dud { one_dud, next_tires, turned_height })
-            });
-            match both {
-                Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(Part::NO_DUD),
-                found => found,
-            }
+            let sampling_of_duds = is_sampled.then_some(sampling);
+            let one_dud = if_known(|| judge_one_dud(context, shot, sampling_of_duds, fails))?.map(Box::new);
+            let next_tires = if_known(|| judge_next_tires(context, shot))?;
+            let turned_height = match fails {
+                true => Some(None),
+                false => if_known(|| turned_height(context, option, sampling.seed))?,
+            };
+            Ok(Part::Dud { one_dud, next_tires, turned_height })
         })
     }
 
@@ -343,11 +339,11 @@ impl<'a> Batch<'a> {
                 }),
             }
         })?;
-        // A part may compute a batch of its own. If the time is up during that batch, the part is incomplete.
+        // A part may compute several batches. If the time is up during one of them, or one fails, the part is incomplete.
         let is_whole = |part: &Option<Option<Part>>| {
             part.as_ref().is_some_and(|part| part.as_ref().is_none_or(Part::is_whole))
         };
-        let partial = self.control.expired() && !found.iter().all(is_whole);
+        let partial = !found.iter().all(is_whole);
         for ((at, _), part) in jobs.into_iter().zip(found) {
             part.flatten().into_iter().for_each(|part| self.take(at, part));
         }
@@ -407,6 +403,14 @@ impl<'a> Batch<'a> {
     fn tell_and_take(&mut self, at: CaseOption, part: Part) {
         self.tell(at, JudgeEvent::Found(&part));
         self.take(at, part);
+    }
+}
+
+/// What `work` finds; `None` if it fails, as if the time was up: the others of its kind stand, and the result is partial.
+fn if_known<T>(work: impl FnOnce() -> Result<Option<T>, NoResult>) -> Result<Option<T>, NoResult> {
+    match catch_panic(work) {
+        Err(NoResult::Failed(_) | NoResult::Panicked(_)) => Ok(None),
+        found => found,
     }
 }
 

@@ -185,7 +185,7 @@ pub enum Part {
     /// How much faster than planned the tires may leave.
     Margin(LaunchMargin),
     /// The option is judged with any one hole left out, with the next tire over holes between two tires, and with tires that turn. A part
-    /// is `None` if the time was up.
+    /// is `None` if the time was up, or its computation failed.
     Dud {
         /// The worst place of a dud.
         one_dud: Option<Box<OneDud>>,
@@ -199,10 +199,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// Nothing is known of duds.
-    pub const NO_DUD: Self = Part::Dud { one_dud: None, next_tires: None, turned_height: None };
-
-    /// Whether the time sufficed for every part.
+    /// Whether every part is known.
     pub fn is_whole(&self) -> bool {
         !matches!(
             self,
@@ -286,7 +283,6 @@ mod tests {
             judged.take(Part::Dud { one_dud, next_tires: None, turned_height: None });
             assert_eq!((judged.verdict(), judged.one_dud.is_some()), (verdict, is_known));
         }
-        assert!(!Part::NO_DUD.is_whole());
         let part = |one_dud, next_tires| Part::Dud { one_dud, next_tires, turned_height: Some(None) };
         assert!(!part(Some(dud(0)), None).is_whole() && !part(None, Some(vec![])).is_whole());
         assert!(part(Some(dud(0)), Some(vec![])).is_whole());

@@ -341,7 +341,7 @@ struct OrderToTry {
     number: usize,
     /// Blast rows in firing order.
     order: Vec<usize>,
-    /// Interval between successive rows [s].
+    /// Interval between successive rows.
     interval: Time,
 }
 

@@ -16,9 +16,10 @@
 //! | study | share ([`ErrorShare`](failure_bounds::ErrorShare)) | fresh draws |
 //! |---|---|---|
 //! | `risk`: each option by itself | `Whole` | |
-//! | `check`: each option by itself; the recommended option | `Whole`; `Nth` | yes, for the choice |
-//! | `remedies`: one change of a kind after the other, until one passes | `Nth` of the kind | yes |
+//! | `check`: each option by itself; each option that passes, if there are several | `Whole`; `Nth` | yes, for the choice |
+//! | `remedies`: one change after the other, until one of a kind passes | `Nth` of the option, over all kinds | yes |
 //! | `sweep`: one recommended interval after the other | `Nth` | yes |
+//! | `orders`: the best order | `Nth` | yes |
 //! | `search`: the schedules of the report, all at once | `Nth` | yes, for the choice |
 //! | `size`: one combination after the other | `Nth` | yes, for the choice |
 

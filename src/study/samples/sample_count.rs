@@ -52,7 +52,8 @@ impl Sampling {
         Self { least: 0, most: SAMPLES_FOR_BANDS.min(self.most), ..*self }
     }
 
-    /// Whether no more samples are needed: the greatest number is drawn, or enough for a verdict that the audit confirms.
+    /// Whether no more samples are needed: the greatest number is drawn, or enough for a
+    /// verdict, and enough of them are audited.
     pub fn is_complete(&self, sampled: &SampledShot) -> bool {
         let drawn = sampled.samples.len();
         drawn >= self.most || drawn >= self.least && sampled.verdict_once_audited() != Verdict::Undecided

@@ -336,8 +336,8 @@ pub(in crate::study) fn percentiles<const N: usize>(
     (!sorted.is_empty()).then(|| shares.map(value_below))
 }
 
-/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945). An example of ten changes: nine are
-/// alike and large, and one is small.
+/// Whether changes lie to one side beyond chance, by their signs and ranks (Wilcoxon 1945). Nine large,
+/// alike changes of ten lie to one side, even if the tenth, a small one, does not.
 fn lies_to_one_side(changes: &[f64]) -> bool {
     let mut changes: Vec<f64> = changes.iter().copied().filter(|&change| change != 0.0).collect();
     sort_by(&mut changes, |a, b| a.abs().total_cmp(&b.abs()));

@@ -22,7 +22,7 @@ use crate::verdict::Verdict;
 pub enum Doubt {
     /// The plan is an example.
     Example,
-    /// The plan has no `[uncertainty]`.
+    /// The plan has no `[uncertainty]`, or only one that a fit wrote.
     NoUncertainty,
     /// `[uncertainty]` does not say how well the launch is known. The launch decides most.
     LaunchUnstated,
