@@ -55,17 +55,23 @@ pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
 
 /// Whether a comment says that nobody has determined a value yet.
 pub fn says_assumed(comment: &str) -> bool {
-    let comment = comment.to_lowercase();
+    // A word processor types spaces of its own, and hyphens that nobody sees.
+    let plain = |sign: char| if sign.is_whitespace() { ' ' } else { sign };
+    let is_seen = |sign: &char| !INVISIBLE.contains(sign);
+    let comment: String = comment.to_lowercase().chars().filter(is_seen).map(plain).collect();
     PARTS.iter().any(|part| comment.contains(part)) || {
         let mut words = comment.split(|sign: char| !sign.is_alphanumeric());
         words.any(|word| WORDS.contains(&word))
     }
 }
 
+/// Signs without width within words: the soft hyphen, and joiners.
+const INVISIBLE: [char; 7] =
+    ['\u{ad}', '\u{200b}', '\u{200c}', '\u{200d}', '\u{200e}', '\u{2060}', '\u{feff}'];
 /// Parts of a comment that call a value assumed, in the languages of people who write plans, in small letters.
 #[rustfmt::skip]
 const PARTS: &[&str] = &[
-    "assum", "invented", "guess", "estim", "approx", "roughly", "not measured", "unmeasured", "to be measured", "not weighed", "not filmed",
+    "assum", "invented", "guess", "estim", "approx", "roughly", "not measured", "unmeasured", "not checked", "to be measured", "not weighed", "not filmed",
     "to be filmed", "until filmed", "no film", "nobody observed", "nobody weighed", "nobody filmed it", "nobody filmed yet", "not sure", "from memory", "rule of thumb", "by eye", "placeholder", "copied",
     "tutorial", "last year", "check!", "?", "~",
     "предполож", "не измер", "приблизит", "примерно", "на глаз", "принято", "уточнит", "оценка", "предварительн", "выдуман", "из примера",
@@ -144,6 +150,9 @@ mod tests {
             "~5 m/s",
             "примерно",
             "estimado",
+            "not\u{a0}measured",
+            "не\u{202f}измерено",
+            "not mea\u{ad}sured",
         ] {
             assert!(says_assumed(comment), "{comment}");
         }

@@ -43,20 +43,35 @@ impl Plan {
 
     /// Name of the example with the same tires, cables, ground, holes and launches, to the last digit. No other site has the same.
     pub fn example_of_site(&self) -> Option<&'static str> {
-        static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
-        let plans = PLANS.get_or_init(|| {
-            let plan = |(name, text): &(&'static str, &str)| Some((*name, Plan::parse(name, text).ok()?));
-            EXAMPLES.iter().filter_map(plan).collect()
-        });
-        plans.iter().find(|(_, example)| self.has_site_of(example)).map(|(name, _)| *name)
+        examples().iter().find(|(_, example)| self.has_site_of(example)).map(|(name, _)| *name)
     }
 
     fn has_site_of(&self, other: &Plan) -> bool {
-        self.layout == other.layout
-            && self.tire == other.tire
-            && self.cable == other.cable
-            && self.ground == other.ground
-            && self.launched() == other.launched()
+        self.alike(other).iter().all(|(_, is_alike)| *is_alike)
+    }
+
+    /// Parts of a site, each with whether both plans have the same.
+    fn alike(&self, other: &Plan) -> [(&'static str, bool); 5] {
+        [
+            ("shelter", self.layout == other.layout),
+            ("tires", self.tire == other.tire),
+            ("cables", self.cable == other.cable),
+            ("ground", self.ground == other.ground),
+            ("holes and launches", self.launched() == other.launched()),
+        ]
+    }
+
+    /// An example of which this plan has most parts, and those parts: somebody began with it, and may have put in little of his own. `None`
+    /// for an example itself.
+    pub fn parts_of_example(&self) -> Option<(&'static str, Vec<&'static str>)> {
+        if self.is_titled_example() || self.example_of_site().is_some() {
+            return None;
+        }
+        let parts = |example: &Plan| -> Vec<&str> {
+            self.alike(example).into_iter().filter(|(_, is_alike)| *is_alike).map(|(part, _)| part).collect()
+        };
+        let all = examples().iter().map(|(name, example)| (*name, parts(example)));
+        all.filter(|(_, parts)| parts.len() >= MOST_PARTS).max_by_key(|(_, parts)| parts.len())
     }
 
     /// Targets and launches of each blast row, sorted. Names, the order of the rows, and values that decide no launch do not count.
@@ -71,6 +86,18 @@ impl Plan {
         };
         sorted(self.blast_rows.iter().map(of_row))
     }
+}
+
+/// Number of the parts of an example from which a plan seems to be made of it.
+const MOST_PARTS: usize = 4;
+
+/// The examples, parsed once.
+fn examples() -> &'static [(&'static str, Plan)] {
+    static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
+    PLANS.get_or_init(|| {
+        let plan = |(name, text): &(&'static str, &str)| Some((*name, Plan::parse(name, text).ok()?));
+        EXAMPLES.iter().filter_map(plan).collect()
+    })
 }
 
 #[cfg(test)]
@@ -90,8 +117,14 @@ mod tests {
             plan.launches_mut().for_each(|launch| launch.charge_kg = Some(12.0));
             assert!(plan.is_example(), "{name}");
             assert_eq!(plan.example_of_site(), Some(*name));
+            assert_eq!(plan.parts_of_example(), None, "it is one");
             plan.tire.mass_kg += 1.0;
             assert!(!plan.is_example(), "{name}, with a tire of its own");
+            // One number of its own makes no site of an example.
+            let (of, parts) = plan.parts_of_example().expect("most of an example");
+            assert_eq!((of, parts), (*name, vec!["shelter", "cables", "ground", "holes and launches"]));
+            plan.ground.friction += 0.01;
+            assert_eq!(plan.parts_of_example(), None, "{name}");
         }
     }
 }

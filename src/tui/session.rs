@@ -21,6 +21,7 @@ use crate::file;
 use crate::jobs::Jobs;
 use crate::kept::{self, Keeper, Recovered};
 use crate::plan::{observations, visible};
+use crate::study::Case;
 use crate::study::FileState;
 use crate::study::question::StudyKind;
 use crate::study::study_trait::Subject;
@@ -422,7 +423,12 @@ impl Session {
     /// Writes the plan to a new file. The new file becomes the file of the plan.
     fn save_as(&mut self, path: &Path) {
         let (app, plan) = self.in_front();
-        let written = file::create(path, &app.editor.text).map_err(|error| error.to_string());
+        // Two plans of one shot exist then. The comment gives the new one a line to confirm, on every face.
+        let left = Path::new(&app.case.source.path).file_name().filter(|_| app.leaves_a_changed_file());
+        let remarked = left.map(|left| with_remark(&app.editor.text, &left.to_string_lossy()));
+        let has_remark = remarked.is_some();
+        let text = remarked.unwrap_or_else(|| app.editor.text.clone());
+        let written = file::create(path, &text).map_err(|error| error.to_string());
         if written.is_ok() {
             // The observations speak against the plan in the old file, too.
             let is_kept = plan.file.is_some()
@@ -438,6 +444,23 @@ impl Session {
         } else {
             app.ask_for_file(Purpose::SaveAs, &path.to_string_lossy());
         }
+        let is_read_again = has_remark && written.is_ok();
         app.note_saved(written.map(|()| path.display().to_string()));
+        if is_read_again {
+            // The plan here gets its remark as the file has it.
+            let saved = app.notice.take();
+            let request = app.reload(Case::load(path).map_err(|mistakes| mistakes.to_string()));
+            app.notice = saved;
+            self.carry_out(request);
+        }
     }
+}
+
+/// The text of a plan with a remark in its first line: the file `left` says something else.
+fn with_remark(text: &str, left: &str) -> String {
+    let (mark, rest) = text.split_at(if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 });
+    let left: String = left.chars().filter(|sign| !sign.is_control()).collect();
+    format!(
+        "{mark}# not checked: another program changed {left} before this was saved: compare both, then take this line out\n{rest}"
+    )
 }

@@ -176,9 +176,14 @@ impl App {
         });
     }
 
+    /// Whether another program has changed the file of the plan since the text here was read.
+    pub fn leaves_a_changed_file(&self) -> bool {
+        self.file == FileState::Changed || self.editor.is_older_than_file()
+    }
+
     /// Notes that the plan now has another file.
     pub fn rename(&mut self, path: &Path) {
-        if self.file == FileState::Changed && path != self.case.source.path {
+        if self.leaves_a_changed_file() && path != self.case.source.path {
             let old = Path::new(&self.case.source.path).file_name();
             self.left_file = old.map(|name| name.to_string_lossy().into_owned());
         }

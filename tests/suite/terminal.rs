@@ -440,7 +440,9 @@ fn a_plan_is_edited_saved_and_reloaded() {
     watched.until("saved /");
     assert_eq!(read(), text);
     let other = std::fs::read_to_string(folder.path().join("plan-2.toml")).expect("the other plan");
-    assert_eq!(other, text.edited("flight_height_m = 2.35", "flight_height_m = 3"));
+    // The first line gives the plan a box on every face until somebody has compared both.
+    let remark = "# not checked: another program changed plan.toml before this was saved: compare both, then take this line out\n";
+    assert_eq!(other, remark.to_owned() + &text.edited("flight_height_m = 2.35", "flight_height_m = 3"));
     watched.press("q");
     assert_eq!(watched.ends(), 0);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 2);

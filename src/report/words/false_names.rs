@@ -181,7 +181,8 @@ fn false_hole_timing(delay: &DelayOption) -> Option<String> {
     let named = name.split(',').map(str::trim).find(|part| part.starts_with(HOLES))?;
     // Other words about holes promise nothing.
     intervals_of(named.trim_start_matches(HOLES).trim())?;
-    if hole_timing.words().as_deref() == Some(named) {
+    // A name need not say from which side.
+    if hole_timing.words().is_some_and(|words| words == named || words.starts_with(&format!("{named} "))) {
         return None;
     }
     let at_once = || phrase("all holes of a row at once").to_owned();

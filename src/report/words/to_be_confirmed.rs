@@ -137,8 +137,10 @@ fn confirmed_of_plan(case: &Case, fired: Option<(usize, &Judgement)>) -> Vec<ToC
     let values =
         marked.chain(left_out).chain(all(About::AssumedValue, exact)).chain(all(About::More, unusual));
     let film = all(About::Film, plan_warnings::without_film(case));
-    let others =
-        plan_warnings::to_be_looked_at(case).into_iter().chain(plan_warnings::kind_of_own_rope(case));
+    let others = plan_warnings::to_be_looked_at(case)
+        .into_iter()
+        .chain(plan_warnings::kind_of_own_rope(case))
+        .chain(plan_warnings::of_example(case));
     let of_fired = |about, told: fn(&Case, &Judgement) -> Option<String>| {
         all(about, fired.and_then(|(_, judged)| told(case, judged)))
     };

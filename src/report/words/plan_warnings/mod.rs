@@ -9,7 +9,7 @@ use itertools::Itertools;
 use super::false_names;
 use crate::plan::keys::Key;
 use crate::plan::usual::Unusual;
-use crate::report::language::say;
+use crate::report::language::{phrase, say};
 use crate::study::Case;
 pub use of_launch::without_film;
 pub use of_shelter::kind_of_own_rope;
@@ -72,6 +72,13 @@ fn retitled_example(case: &Case) -> Option<String> {
         "EXAMPLE: tires, cables, ground, holes and launches are those of `{name}`, so nothing of it is to be fired: put in those of your site",
         name
     ))
+}
+
+/// Line that names the parts of a plan that are still those of an example, if most are.
+pub fn of_example(case: &Case) -> Option<String> {
+    let (name, parts) = case.plan.parts_of_example()?;
+    let parts = parts.into_iter().map(phrase).join(", ");
+    Some(say!("of the example `{name}` there are still: {parts}: are they those of your site?", name, parts))
 }
 
 /// Warning with the inputs that `[uncertainty]` leaves out.

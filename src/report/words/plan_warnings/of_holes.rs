@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use itertools::Itertools;
+use nalgebra::Vector2;
 
 use crate::choice::HoleOrder;
 use crate::plan::{BlastRow, HoleTiming, LaunchTargets};
@@ -21,7 +22,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         dud_alone(case),
         under_same_tires(case),
         few_in_row(case),
-        row_left_out(case),
+        row_left_out(case).or_else(|| wide_between_rows(case)),
         limits_nothing(case),
         side_by_side(case),
     ];
@@ -164,6 +165,38 @@ fn row_left_out(case: &Case) -> Option<String> {
     ))
 }
 
+/// Warning that two of at least three blast rows lie much farther apart than the others, across the rows, by the middle of their holes.
+fn wide_between_rows(case: &Case) -> Option<String> {
+    let (scene, shot, rows) = (case.scene(), case.shots.first()?, &case.plan.blast_rows);
+    let places = |row: usize| -> Vec<Vector2<f64>> {
+        let of_row = shot.firings.iter().filter(|firing| firing.row == row);
+        of_row.map(|firing| place_of_hole(scene, firing)).collect()
+    };
+    let places: Vec<_> = (0..rows.len()).map(places).collect();
+    let middle = |places: &Vec<Vector2<f64>>| places.iter().sum::<Vector2<f64>>() / places.len() as f64;
+    let middles: Vec<Vector2<f64>> = places.iter().map(middle).collect();
+    let along = |axis: usize| {
+        let from_middle =
+            |row: usize| places[row].iter().map(move |place| place[axis]).minmax().into_option();
+        (0..rows.len()).filter_map(from_middle).map(|(low, high)| high - low).sum::<f64>()
+    };
+    let across = usize::from(along(1) < along(0));
+    let in_turn = sorted_by(0..rows.len(), |&a, &b| middles[a][across].total_cmp(&middles[b][across]));
+    let apart = |pair: &[usize]| middles[pair[1]][across] - middles[pair[0]][across];
+    let gaps = sorted_by(in_turn.windows(2), |a, b| apart(a).total_cmp(&apart(b)));
+    let (least, widest) = (apart(gaps.first()?), *gaps.last()?);
+    (least > 0.0 && apart(widest) > WIDE_GAP * least).then(|| {
+        let [one, other] = [widest[0], widest[1]].map(|row| &rows[row].name);
+        say!(
+            "rows {one} and {other} lie {} m apart, others {} m: is a row missing between them?",
+            one,
+            other,
+            units::rounded(apart(widest), 1),
+            units::rounded(least, 1)
+        )
+    })
+}
+
 /// Warning that a limit of holes or charge within 8 ms exceeds all holes together: the limit may be in another unit.
 fn limits_nothing(case: &Case) -> Option<String> {
     let shot = case.shots.first()?;
@@ -292,6 +325,31 @@ mod tests {
         assert!(asked(&beside, 1.6, &left).contains(survey), "{}", asked(&beside, 1.6, &left));
         assert!(!asked(&in_turn, 1.6, &left).contains("a survey decides"));
         assert!(!asked(&beside, 1.6, "hole_interval_ms = 0").contains("a survey decides"));
+    }
+
+    /// A row that a list leaves out is fired all the same.
+    #[test]
+    fn a_wide_gap_between_listed_rows_is_asked_about() {
+        let told = |lines: &[f64]| {
+            let row = |(n, y): (usize, &f64)| {
+                format!(
+                    "{{ name = \"{}\", holes = [{{ x_m = 0, y_m = {y}, launch_m_s = 6 }}, {{ x_m = 2, y_m = {y}, launch_m_s = 6 }}] }}",
+                    n + 1
+                )
+            };
+            let rows = lines.iter().enumerate().map(row).join(", ");
+            let text = format!(
+                "shelter = {{ layout = \"grid\", rows = 6, columns = 2, spacing_m = 2 }}\ntire = {{ mass_kg = 280, outer_diameter_m = 1.6 }}\n\
+                 cable = {{ axial_stiffness_kn = 1400, breaking_force_kn = 60 }}\nground = {{ friction = 0.5 }}\nblast_row = [{rows}]\n\
+                 limits = {{ flight_height_m = 2, cable_safety_factor = 1 }}\ndelay = [{{ name = \"1\", interval_ms = 9 }}]\n"
+            );
+            let lines = to_be_looked_at(&parsed(text));
+            lines.into_iter().find(|line| line.contains("is a row missing"))
+        };
+        assert_eq!(told(&[0.0, 2.0, 4.0, 6.0]), None);
+        let asked = "rows 2 and 3 lie 4.0 m apart, others 2.0 m: is a row missing between them?";
+        assert_eq!(told(&[0.0, 2.0, 6.0, 8.0]).as_deref(), Some(asked));
+        assert_eq!(told(&[0.0, 4.0]), None, "nobody knows what is usual");
     }
 
     /// The worst hole of each kind is named: under no tire, between two, and beside its own.

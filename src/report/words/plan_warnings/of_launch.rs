@@ -7,6 +7,7 @@ use crate::plan::assumed::assumed_values;
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::fitted_values;
 use crate::report::language::{phrase, say};
+use crate::scene::ASSUMED_PUSH_DEPTH;
 use crate::sorting::sorted_by;
 use crate::study::Case;
 use crate::study::launch::{Blast, LaunchEstimates, fastest_launch};
@@ -14,6 +15,7 @@ use crate::units;
 
 /// Warnings about launches that the signer confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
+    let pushes = [deep_push(case), long_push(case), leaning(case)];
     let single = [
         without_film(case),
         fitted_to_few(case),
@@ -23,7 +25,38 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         launches_lighter_tire(case),
         tilted_to_x(case),
     ];
-    single.into_iter().flatten().collect()
+    single.into_iter().chain(pushes).flatten().collect()
+}
+
+/// Warning that holes push from deeper than the program assumes: a deeper push is milder beside a tire, and nothing measures the depth.
+fn deep_push(case: &Case) -> Option<String> {
+    let deepest = case.plan.launches().filter_map(|launch| launch.push_depth_m).reduce(f64::max)?;
+    (deepest > ASSUMED_PUSH_DEPTH).then(|| {
+        say!(
+            "`push_depth_m = {deepest}`: nothing measures it, and a deeper push throws a tire less to the side; left out it is {} m: is it the stemming?",
+            deepest,
+            ASSUMED_PUSH_DEPTH
+        )
+    })
+}
+
+/// Warning that launches take a time: that makes cables pull less, and a guess is milder.
+fn long_push(case: &Case) -> Option<String> {
+    let longest = case.plan.launches().map(|launch| launch.push_ms).reduce(f64::max)?;
+    (longest > 0.0).then(|| {
+        say!("`push_ms = {longest}` makes cables pull less than a launch at once: was it measured?", longest)
+    })
+}
+
+/// Line with the greatest lean of the launches, and its direction: that of the hole is the opposite.
+fn leaning(case: &Case) -> Option<String> {
+    let by_tilt = sorted_by(case.plan.launches(), |a, b| a.tilt_deg.total_cmp(&b.tilt_deg));
+    let most = by_tilt.last().filter(|launch| launch.tilt_deg > 0.0 && launch.tilt_toward_deg != 0.0)?;
+    Some(say!(
+        "launches lean by up to {}° toward {}° from +x; the holes lean down the other way: is it so?",
+        most.tilt_deg,
+        most.tilt_toward_deg
+    ))
 }
 
 /// Warning that no verdict passes on a launch velocity that nobody observed.
@@ -176,6 +209,30 @@ mod tests {
             ("launch_m_s = 3.9\ncharge_kg = 10", false),
         ] {
             assert_eq!(told(first), is_told, "{first}");
+        }
+    }
+
+    /// Each of these makes a shot milder, or throws it the other way.
+    #[test]
+    fn depth_time_and_lean_of_a_push_are_asked_about() {
+        let site = include_str!("../../../../plans/amur-three-rows.toml");
+        let told = |more: &str| {
+            let text = site.replacen("launch_m_s = 6.0", &format!("launch_m_s = 6.0\n{more}"), 1);
+            of_plan(&parsed(text)).join("\n")
+        };
+        for (more, asked, is_asked) in [
+            ("push_depth_m = 3", "is it the stemming?", true),
+            ("push_depth_m = 0.8", "is it the stemming?", false),
+            ("push_ms = 20", "makes cables pull less than a launch at once", true),
+            ("push_ms = 0", "makes cables pull less", false),
+            (
+                "tilt_deg = 15\ntilt_toward_deg = 90",
+                "lean by up to 15° toward 90° from +x; the holes lean down the other way",
+                true,
+            ),
+            ("tilt_deg = 15\ntilt_toward_deg = 0", "lean by up to", false),
+        ] {
+            assert_eq!(told(more).contains(asked), is_asked, "{more}: {}", told(more));
         }
     }
 

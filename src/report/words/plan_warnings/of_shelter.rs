@@ -16,6 +16,7 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         whole_rope_held(case),
         odd_rope(case),
         fibre_too_sure(case),
+        splice_too_good(case),
         centre_to_centre(case),
         odd_tires(case),
         tied_to_nothing(case),
@@ -83,8 +84,20 @@ fn softened(case: &Case) -> Vec<String> {
     damping.into_iter().chain(ends).map(warning).collect()
 }
 
-/// Width of a range of stiffness [%] from which a rope of fibre is not too sure: half of what new plans state.
-const FIBRE_RANGE_PERCENT: f64 = 35.0;
+/// Range about the stiffness of its maker in which a rope of fibre may lie [%], as new plans state it.
+const FIBRE_RANGE_PERCENT: [f64; 2] = [-20.0, 50.0];
+/// Greatest share of its strength that a splice leaves a rope of fibre [%] (FM 55-501).
+const BEST_SPLICE_PERCENT: f64 = 90.0;
+
+/// Warning that the ends of a rope of fibre hold more than the best splice.
+fn splice_too_good(case: &Case) -> Option<String> {
+    let cable = &case.plan.cable;
+    let rope = catalogue().find(cable.rope.as_deref()?)?;
+    let percent = cable.termination_percent;
+    // That ends hold all is asked about by itself.
+    let is_odd = rope.kind == Kind::FibreRope && percent > BEST_SPLICE_PERCENT && percent < 100.0;
+    is_odd.then(|| say!("the ends hold {percent} % of the rope, and a well made splice of fibre 70 to 90 %: were they pulled?", percent))
+}
 
 /// Warning that the stiffness of a rope of fibre is taken as known as well as that of steel: the range may be that of the rope before.
 fn fibre_too_sure(case: &Case) -> Option<String> {
@@ -93,7 +106,8 @@ fn fibre_too_sure(case: &Case) -> Option<String> {
     let key = uncertainty::AXIAL_STIFFNESS_PERCENT.name;
     // A range that is marked as assumed has a box already.
     let is_marked = || assumed_values(&case.source.text).any(|value| value.key() == Some(key));
-    (rope.kind == Kind::FibreRope && high - low < FIBRE_RANGE_PERCENT && !is_marked()).then(|| {
+    let is_sure = low > FIBRE_RANGE_PERCENT[0] || high < FIBRE_RANGE_PERCENT[1];
+    (rope.kind == Kind::FibreRope && is_sure && !is_marked()).then(|| {
         say!(
             "a rope of fibre may be 20 % softer and 50 % stiffer than its maker says, the plan says {low} to {high} %: was it pulled?",
             low,
@@ -277,7 +291,17 @@ mod tests {
         let told = |new: &str| to_be_looked_at(&parsed(site.replacen(range, new, 1))).join("\n");
         let asked = "a rope of fibre may be 20 % softer and 50 % stiffer than its maker says, the plan says -5 to 5 %: was it pulled?";
         assert_eq!(told("axial_stiffness_percent = [-5, 5]"), asked);
-        assert_eq!(told("axial_stiffness_percent = [-5, 30]"), "");
+        for (range, is_asked) in
+            [("[-20, 50]", false), ("[-50, 20]", true), ("[-20, 49]", true), ("[-19, 50]", true)]
+        {
+            assert_eq!(told(&format!("axial_stiffness_percent = {range}")) != "", is_asked, "{range}");
+        }
+        let ends = |percent: &str| {
+            let text =
+                site.replacen("termination_percent = 70", &format!("termination_percent = {percent}"), 1);
+            to_be_looked_at(&parsed(text)).join("\n").contains("a well made splice of fibre 70 to 90 %")
+        };
+        assert_eq!(["90", "91", "99", "100"].map(ends), [false, true, true, false]);
         assert_eq!(told(range), "");
         let list = "shelter = { layout = \"list\", tire = [{ x_m = 0, y_m = 0 }, { x_m = 2.6, y_m = 0, mass_kg = 2600 }], cable = [{ from = 1, to = 2 }] }\n\
                     tire = { mass_kg = 280, outer_diameter_m = 1.6 }\ncable = { rope = \"Polyester 24\", termination_percent = 70 }\n\
