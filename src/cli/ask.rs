@@ -50,7 +50,7 @@ pub enum Refusal {
     /// What is wrong with the arguments.
     Why(String),
     /// The reason is printed already.
-    ObservationRecord,
+    Reported,
 }
 
 impl<M: Into<String>> From<M> for Refusal {
@@ -138,7 +138,7 @@ impl<'a> Ask<'a> {
         let question = match question(&case) {
             Ok(question) => question,
             Err(Refusal::Why(message)) => return wrong(&message).map(Err),
-            Err(Refusal::ObservationRecord) => return Ok(Err(Status::Wrong)),
+            Err(Refusal::Reported) => return Ok(Err(Status::Wrong)),
         };
         let asked = Asked { question, sampling: self.sampling, compute: self.compute.settings(&case.plan) };
         let shard = self.shard.unwrap_or(Shard::WHOLE);

@@ -133,7 +133,7 @@ fn question(arguments: &Arguments, case: &Case, look: &LookArguments) -> Result<
     if let Some(message) = unknowns_that_exclude(&unknowns) {
         return Err(message.into());
     }
-    let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::ObservationRecord)?;
+    let observed = read_observations(case, &arguments.observed, look).ok_or(Refusal::Reported)?;
     match not_to_be_fitted(&observed, &case.plan.fitted_from, &case.source.name()) {
         Some(message) => Err(message.into()),
         None => Ok(Question::Fit(fit::Question { observed, unknowns })),

@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::arguments::{FormatArg, LookArguments};
 use super::ask::Answered;
-use super::standing::record_of;
 use super::status::{Status, failed, wrong};
 use crate::file::read;
+use crate::kept;
 use crate::study::merge::{MergeFailure, Merged, merge};
 use crate::study::observed::objection::compare_record;
 use crate::study::observed::{Comparison, NotCompared, ObservationRecord};
@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, look: &LookArguments) -> io::Result<Status> {
                 FileState::Gone => Comparison::not_compared(NotCompared::NoPlan),
                 FileState::AsJudged | FileState::Changed | FileState::Pipe => {
                     let mut record = ObservationRecord::default();
-                    paths.iter().for_each(|path| record.join(record_of(path.as_ref())));
+                    paths.iter().for_each(|path| record.join(kept::find_record(path.as_ref())));
                     compare_record(&asked.context(&case, &StudyControl::default()), &record)
                 }
             };

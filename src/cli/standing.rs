@@ -1,7 +1,5 @@
 //! Standing of a plan after a command has computed: the state of its file now, and its comparison with observations of earlier shots.
 
-use std::path::Path;
-
 use crate::kept;
 use crate::study::observed::{Comparison, ObservationRecord};
 use crate::study::standing::Standing;
@@ -14,10 +12,5 @@ pub fn standing_now(case: &Case, compared: Comparison) -> Standing {
 
 /// The record of a plan: observations typed or read in the terminal.
 pub fn observation_record(case: &Case) -> ObservationRecord {
-    record_of(&case.source.path)
-}
-
-/// The record of the plan in this file.
-pub fn record_of(path: &Path) -> ObservationRecord {
-    kept::find_record(path)
+    kept::find_record(&case.source.path)
 }

@@ -1,5 +1,7 @@
 //! Finds the values that the comments of a plan call assumed.
 
+use super::keys::Key;
+
 /// A value whose comment says that nobody has determined it yet.
 #[derive(Clone, Copy, Debug)]
 pub struct AssumedValue<'t> {
@@ -51,6 +53,11 @@ pub fn assumed_values(text: &str) -> impl Iterator<Item = AssumedValue<'_>> {
         }
     }
     found.into_iter()
+}
+
+/// Whether the text of a plan calls a value of this key assumed.
+pub fn is_assumed(text: &str, key: &Key) -> bool {
+    assumed_values(text).any(|value| value.key() == Some(key.name))
 }
 
 /// Whether a comment says that nobody has determined a value yet.

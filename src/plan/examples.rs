@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use itertools::Itertools;
+
 use super::{BlastRow, Plan, names};
 use crate::sorting::sorted;
 
@@ -47,31 +49,22 @@ impl Plan {
     }
 
     fn has_site_of(&self, other: &Plan) -> bool {
-        self.alike(other).iter().all(|(_, is_alike)| *is_alike)
+        PARTS.iter().all(|(_, is_alike)| is_alike(self, other))
     }
 
-    /// Parts of a site, each with whether both plans have the same.
-    fn alike(&self, other: &Plan) -> [(&'static str, bool); 5] {
-        [
-            ("shelter", self.layout == other.layout),
-            ("tires", self.tire == other.tire),
-            ("cables", self.cable == other.cable),
-            ("ground", self.ground == other.ground),
-            ("holes and launches", self.launched() == other.launched()),
-        ]
-    }
-
-    /// An example of which this plan has most parts, and those parts: somebody began with it, and may have put in little of his own. `None`
-    /// for an example itself.
+    /// An example that this plan differs from in one part alone, and the other parts: somebody began with it, and may have put in little
+    /// of his own. `None` for an example itself.
     pub fn parts_of_example(&self) -> Option<(&'static str, Vec<&'static str>)> {
-        if self.is_titled_example() || self.example_of_site().is_some() {
+        if self.is_example() {
             return None;
         }
-        let parts = |example: &Plan| -> Vec<&str> {
-            self.alike(example).into_iter().filter(|(_, is_alike)| *is_alike).map(|(part, _)| part).collect()
-        };
-        let all = examples().iter().map(|(name, example)| (*name, parts(example)));
-        all.filter(|(_, parts)| parts.len() >= MOST_PARTS).max_by_key(|(_, parts)| parts.len())
+        examples().iter().find_map(|(name, example)| {
+            let unlike = PARTS.iter().filter(|(_, is_alike)| !is_alike(self, example)).map(|(part, _)| *part);
+            // A second part that differs ends the search: screens ask at every repaint, and the launches of a large plan take long.
+            let unlike = unlike.take(2).exactly_one().ok()?;
+            let alike = PARTS.iter().map(|(part, _)| *part).filter(|part| *part != unlike);
+            Some((*name, alike.collect()))
+        })
     }
 
     /// Targets and launches of each blast row, sorted. Names, the order of the rows, and values that decide no launch do not count.
@@ -88,8 +81,17 @@ impl Plan {
     }
 }
 
-/// Number of the parts of an example from which a plan seems to be made of it.
-const MOST_PARTS: usize = 4;
+/// Whether two plans have the same part of a site.
+type IsAlike = fn(&Plan, &Plan) -> bool;
+
+/// The parts of a site, and what compares them; what takes long comes last.
+const PARTS: [(&str, IsAlike); 5] = [
+    ("shelter", |one, other| one.layout == other.layout),
+    ("tires", |one, other| one.tire == other.tire),
+    ("cables", |one, other| one.cable == other.cable),
+    ("ground", |one, other| one.ground == other.ground),
+    ("holes and launches", |one, other| one.launched() == other.launched()),
+];
 
 /// The examples, parsed once.
 fn examples() -> &'static [(&'static str, Plan)] {

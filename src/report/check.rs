@@ -333,10 +333,10 @@ pub fn report_of_plan(
     let chosen = recommended(case, results);
     // The option to be fired: the recommended option, or the only option.
     let lone_or_chosen = if results.len() == 1 { Some(0) } else { chosen };
-    let fired = lone_or_chosen.and_then(|option| results[option].as_ref().ok());
+    let fired = lone_or_chosen.and_then(|option| Some((option, results[option].as_ref().ok()?)));
     // Under HOLD nothing passes, so confirmed lines would release nothing.
     let stands = standing.against_passes().is_none();
-    let fired = fired.filter(|judged| judged.verdict() == Verdict::Pass && stands);
+    let fired = fired.filter(|(_, judged)| judged.verdict() == Verdict::Pass && stands);
     let forbidden = standing.against_plan().and_then(forbidding).filter(|_| passed > 0);
     let method = first.map_or(case.plan.simulation.method, |judged| judged.checked.compute.method);
     let mut report = report_head(case, "shelter.check/2", sampled);
@@ -345,9 +345,8 @@ pub fn report_of_plan(
         advice(&["recommended"], chosen.map(|option| &case.plan.delays[option].name)),
         fact(
             &["to_be_confirmed"],
-            fired.map(|judged| {
-                let fired = lone_or_chosen.map(|option| (option, judged));
-                let confirmed = to_be_confirmed(case, fired, files, standing.compared()).into_iter();
+            fired.map(|fired| {
+                let confirmed = to_be_confirmed(case, Some(fired), files, standing.compared()).into_iter();
                 let confirmed = confirmed.map(|line| line.text);
                 Cell::Sentences(forbidden.map(str::to_owned).into_iter().chain(confirmed).collect())
             }),

@@ -125,18 +125,18 @@ impl App {
     /// Whether anything is to be confirmed before an option is fired.
     pub fn is_under_condition(&self, option: usize) -> bool {
         let files = || self.record.read(&self.case).unwrap_or_default();
-        is_anything_to_be_confirmed(&self.case, self.fired(option), files, &self.comparison())
+        is_anything_to_be_confirmed(&self.case, self.with_judgement(option), files, &self.comparison())
     }
 
     /// An option with its judgement; `None` if it has none yet.
-    fn fired(&self, option: usize) -> Option<(usize, &Judgement)> {
+    pub(super) fn with_judgement(&self, option: usize) -> Option<(usize, &Judgement)> {
         Some((option, self.judgement(option)?))
     }
 
     /// What is to be confirmed before an option is fired.
     pub fn to_be_confirmed(&self, option: usize) -> Vec<ToConfirm> {
         let seen = self.record.read(&self.case).unwrap_or_default();
-        to_be_confirmed(&self.case, self.fired(option), &seen, &self.comparison())
+        to_be_confirmed(&self.case, self.with_judgement(option), &seen, &self.comparison())
     }
 
     /// Whether the first line is final: the assumptions of the recommended option are known. Without a recommended option: the assumptions

@@ -127,7 +127,7 @@ impl ShotHead {
                 mistakes.push(Mistake {
                     span,
                     message: format!("`{name}` is said twice"),
-                    remedy: "say it once: one file says of one shot; leave out the file's charge where rows differ".to_owned(),
+                    remedy: "say it once: one file tells of one shot; leave out the file's charge where rows differ".to_owned(),
                 });
             }
         }

@@ -37,7 +37,8 @@ pub fn own_words(plan: &Plan, option: usize) -> Option<String> {
 /// are compared with the plan.
 fn is_compared(delay: &DelayOption, rows: &[BlastRow]) -> bool {
     let holes = delay.hole_timing.words();
-    let mut parts = delay.name.split(',').map(str::trim).filter(|part| holes.as_deref() != Some(*part));
+    let parts = delay.name.split(',').map(str::trim).filter(|part| holes.as_deref() != Some(*part));
+    let words: Vec<&str> = parts.flat_map(str::split_whitespace).collect();
     let is_number = |text: &str| text.chars().all(|sign| sign.is_ascii_digit() || "./+()".contains(sign));
     let is_unit = |text: &str| intervals_of(&format!("1{text}")).is_some();
     let is_row = |part: &str| part.is_empty() || rows.iter().any(|row| row.name == part);
@@ -45,8 +46,12 @@ fn is_compared(delay: &DelayOption, rows: &[BlastRow]) -> bool {
         let (number, unit) = word.split_at(word.trim_end_matches(char::is_alphabetic).len());
         is_number(number) && (unit.is_empty() || is_unit(unit)) || word.split(['-', '>']).all(is_row)
     };
+    // An order of some rows alone, and numbers side by side, may be meant as an order.
+    let has_order = delay.name.contains(['-', '>']);
+    let bare_numbers = words.iter().filter(|word| word.parse::<f64>().is_ok()).count();
+    let is_order_compared = if has_order { named_order(delay, rows).is_some() } else { bare_numbers <= 1 };
     let at_once = delay.name == AT_ONCE && gaps(delay).iter().all(|gap| *gap == Time::default());
-    at_once || parts.all(|part| part.split_whitespace().all(is_known))
+    at_once || is_order_compared && words.into_iter().all(is_known)
 }
 
 /// Name of an option whose rows all fire at once.
@@ -94,6 +99,10 @@ fn false_first(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
     let small = name.to_lowercase();
     let words = small.split([' ', ',', ';']).filter(|word| !word.is_empty() && !ROW.contains(word));
     let words: Vec<&str> = words.collect();
+    // Screens ask of every option at every repaint: most names have no such word.
+    if !words.iter().any(|word| [FIRST, LAST, BEFORE].iter().any(|known| known.contains(word))) {
+        return None;
+    }
     // An ordinal number has an ending: `2.`, `2-й`, `2ª`.
     let number = |word: &str| word.trim_end_matches(['.', '-', 'й', 'ª', 'º']).to_owned();
     let row = |word: &str| {
@@ -154,9 +163,9 @@ fn false_times(delay: &DelayOption) -> Option<String> {
     })
 }
 
-/// Warning that a name says another order of rows than the order in which they fire: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
-fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
-    let DelayOption { name, timing, .. } = delay;
+/// The rows in the order that a name gives: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`; `None` if it does not give every row once.
+fn named_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<Vec<usize>> {
+    let name = &delay.name;
     let end = intervals(name).map_or(name.len(), |(start, _)| start);
     let before = name[..end].split(',').next().unwrap_or_default().trim();
     let named_in = |separator: &str| {
@@ -165,7 +174,13 @@ fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
             named.map(|name| rows.iter().position(|row| row.name == name)).collect::<Option<Vec<_>>>()?;
         (named.len() == rows.len() && rows.len() > 1 && named.iter().all_unique()).then_some(named)
     };
-    let named = named_in("-").or_else(|| named_in(">"))?;
+    named_in("-").or_else(|| named_in(">"))
+}
+
+/// Warning that a name says another order of rows than the order in which they fire: `3-2-1 20 ms`, `3 > 2 > 1, 20 ms`.
+fn false_order(delay: &DelayOption, rows: &[BlastRow]) -> Option<String> {
+    let DelayOption { name, timing, .. } = delay;
+    let named = named_order(delay, rows)?;
     let at = timing.fire_at();
     if named.windows(2).all(|pair| at[pair[0]] <= at[pair[1]]) {
         return None;
@@ -304,6 +319,9 @@ mod tests {
             "all at once",
             "as listed",
             "north 2026",
+            "3-1, 42 ms",
+            "2 > 1",
+            "2 1 3",
         ] {
             assert!(asked_of(name), "{name}");
         }

@@ -176,22 +176,22 @@ pub fn fit(
     };
     control.has_steps(3);
     let answering = control.part(SHARE_OF_ANSWERS);
-    let mut converged = problem.answers(case)?;
+    let mut refined = problem.answers(case)?;
     drop(answering);
     let again = control.part(SHARE_OF_ANSWERS);
     if let Some(before) = between_shots {
         // The mean of the factors follows a launch. If no launch is estimated, the mean is one more parameter.
         let follow = problem.predictor.parameters.len() + usize::from(!estimates_launches(unknowns));
-        let of_shots = before.of_shots(&problem.seen, &converged[0], follow);
+        let of_shots = before.of_shots(&problem.seen, &refined[0], follow);
         if of_shots.percent != problem.between_shots_percent {
             problem.between_shots_percent = of_shots.percent;
-            converged = problem.answers(case)?;
+            refined = problem.answers(case)?;
         }
         between_shots = Some(of_shots);
     }
     drop(again);
     let _telling = control.part(1.0);
-    let best = &converged[0];
+    let best = &refined[0];
     let slopes = best.covariance.whiten(&best.slopes).unwrap_or_else(|| best.slopes.clone());
     let start = problem.start_coordinates(&case.plan);
     let refused = determined::refuse(&problem.predictor, &problem.space, &start, &slopes)?;
@@ -202,7 +202,7 @@ pub fn fit(
         let observed = problem.seen.list;
         return Ok(FitResult::NotDetermined { refused, observed, predictions });
     }
-    let answers: Vec<Answer> = converged.iter().map(|converged| problem.answer(case, converged)).collect();
+    let answers: Vec<Answer> = refined.iter().map(|refined| problem.answer(case, refined)).collect();
     let launches = estimates_launches(unknowns).then(|| {
         let before = &case.plan.uncertainty;
         answers[0].launch_uncertainty(before, between_shots.map(|between| between.percent))

@@ -106,19 +106,19 @@ impl FitProblem<'_> {
         let least = minima.first().map_or(f64::INFINITY, |best| best.misfit);
         let is_worth = |minimum: &Minimum| minimum.misfit <= least + WORTH_REFINING;
         let worth: Vec<Minimum> = minima.into_iter().take_while(is_worth).take(MOST_REFINED).collect();
-        let converged = run_batch(&worth, control, |minimum| match self.seed {
+        let refined = run_batch(&worth, control, |minimum| match self.seed {
             Some(seed) => self.settle_among_samples(&model, minimum, seed),
             None => self.converge(&model, minimum),
         })?;
-        let converged: Option<Vec<Option<RefinedAnswer>>> = converged.into_iter().collect();
-        let mut converged: Vec<RefinedAnswer> =
-            converged.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
-        sort_by(&mut converged, |a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
-        let least = converged.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
-        converged.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
-        Ok(converged.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, converged| {
-            if !all.iter().any(|known| known.minimum.is_same(&converged.minimum)) {
-                all.push(converged);
+        let refined: Option<Vec<Option<RefinedAnswer>>> = refined.into_iter().collect();
+        let mut refined: Vec<RefinedAnswer> =
+            refined.ok_or(NoResult::OutOfTime)?.into_iter().flatten().collect();
+        sort_by(&mut refined, |a, b| a.unlikelihood().total_cmp(&b.unlikelihood()));
+        let least = refined.first().map(RefinedAnswer::unlikelihood).ok_or_else(|| self.failure(&start))?;
+        refined.retain(|answer| answer.unlikelihood() <= least + NEARLY_EQUAL);
+        Ok(refined.into_iter().fold(Vec::new(), |mut all: Vec<RefinedAnswer>, refined| {
+            if !all.iter().any(|known| known.minimum.is_same(&refined.minimum)) {
+                all.push(refined);
             }
             all
         }))
@@ -166,7 +166,7 @@ impl FitProblem<'_> {
     ) -> Result<Option<RefinedAnswer>, NoResult> {
         let count = minimum.point.len();
         let (mut at, mut spread) = (minimum.point.clone(), self.sample_spread(|n| minimum.sd(n)));
-        let mut converged = None;
+        let mut refined = None;
         for _ in 0..MOST_ROUNDS {
             let Some(SampledPrediction { mean, slopes, over_shot_factor, covariance }) =
                 model.from_samples(&at, &spread, seed)?
@@ -208,7 +208,7 @@ impl FitProblem<'_> {
                 |n: usize| moved[n].abs() <= 0.3 * spread[n] && (wanted[n] / spread[n]).ln().abs() < 0.4;
             let is_converged = (0..count).all(is_near);
             (at, spread) = (minimum.point.clone(), wanted);
-            converged = Some(RefinedAnswer {
+            refined = Some(RefinedAnswer {
                 minimum,
                 predicted,
                 slopes,
@@ -220,7 +220,7 @@ impl FitProblem<'_> {
                 break;
             }
         }
-        Ok(converged)
+        Ok(refined)
     }
 
     /// The reason why the run at these coordinates fails.
@@ -249,8 +249,8 @@ impl FitProblem<'_> {
         Ok(slopes.map(|slope| if slope.is_finite() { slope } else { 0.0 }))
     }
 
-    pub fn answer(&self, case: &Case, converged: &RefinedAnswer) -> Answer {
-        let RefinedAnswer { minimum, predicted, covariance, .. } = converged;
+    pub fn answer(&self, case: &Case, refined: &RefinedAnswer) -> Answer {
+        let RefinedAnswer { minimum, predicted, covariance, .. } = refined;
         let parameters = &self.predictor.parameters;
         let count = parameters.len();
         let estimate = |n: usize| {
@@ -274,7 +274,7 @@ impl FitProblem<'_> {
         };
         let stated = self.priors.iter().flatten().count();
         Answer {
-            is_converged: converged.is_converged,
+            is_converged: refined.is_converged,
             estimates: (0..count).map(estimate).collect(),
             correlation: (0..count).map(|a| (0..count).map(|b| correlation(a, b)).collect()).collect(),
             residuals: (0..predicted.len()).map(residual).collect(),

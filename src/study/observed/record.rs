@@ -257,7 +257,7 @@ impl ObservationRecord {
     pub fn withdraw_last(&mut self, day: &str) -> Option<String> {
         let last = self.last();
         let slip = self.typed.last().and_then(|row| place_of(row)).map(str::to_owned);
-        let record = self.typed.pop().map(|row| (row.clone(), row, None)).or_else(|| {
+        let taken = self.typed.pop().map(|row| (row.clone(), row, None)).or_else(|| {
             let readable = self.files.iter().rposition(|file| !file.is_unreadable())?;
             let ObservedFile { path, text, checksum } = self.files.remove(readable);
             let rows = || text.lines().skip(1).map(in_words).collect::<Vec<_>>().join(", ");
@@ -276,7 +276,7 @@ impl ObservationRecord {
         if let Some(before) = self.withdrawn.iter_mut().rfind(|gone| is_of_slip(gone)) {
             before.is_corrected = false;
         }
-        self.withdrawn.extend(record.map(gone));
+        self.withdrawn.extend(taken.map(gone));
         if self.is_empty() {
             self.fired.clear();
         }

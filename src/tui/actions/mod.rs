@@ -260,12 +260,8 @@ impl App {
         let verdict = judged.map_or(Verdict::Undecided, Judgement::verdict);
         let standing = self.standing_now();
         let seen = self.record.read(&self.case).unwrap_or_default();
-        let confirmed = to_be_confirmed(
-            &self.case,
-            judged.map(|judged| (self.selected, judged)),
-            &seen,
-            standing.compared(),
-        );
+        let fired = self.with_judgement(self.selected);
+        let confirmed = to_be_confirmed(&self.case, fired, &seen, standing.compared());
         match standing.against_firing(judged, self.stands_on(self.selected)) {
             None => match (self.thin(self.selected).is_some(), !confirmed.is_empty()) {
                 (false, false) => TO_BE_FIRED,

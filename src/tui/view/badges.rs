@@ -30,7 +30,7 @@ use crate::verdict::{Quantity, Verdict};
 /// Badge text if observations of earlier shots are compared with the plan and none speaks against it.
 const AGREES: &str = "observations agree";
 /// The same for a plan that was fitted to the observations, and for a single value.
-const FITTED: &str = "fitted to the observations: they agree";
+const FITTED: &str = "fitted to the observations, so they agree";
 const ONE_AGREES: &str = "the one value seen agrees: it tells little";
 
 /// Greatest accepted risk that plans usually state.

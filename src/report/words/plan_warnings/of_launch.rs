@@ -1,9 +1,7 @@
 //! Warnings about launches: surer than anybody can know them, or not of the plan's tires and charges.
 
-use std::cmp::Ordering;
-
 use crate::plan::Launch;
-use crate::plan::assumed::assumed_values;
+use crate::plan::assumed::is_assumed;
 use crate::plan::keys::uncertainty;
 use crate::plan::observations::fitted_values;
 use crate::report::language::{phrase, say};
@@ -15,7 +13,6 @@ use crate::units;
 
 /// Warnings about launches that the signer confirms.
 pub(super) fn warnings(case: &Case) -> Vec<String> {
-    let pushes = [deep_push(case), long_push(case), leaning(case)];
     let single = [
         without_film(case),
         fitted_to_few(case),
@@ -24,8 +21,11 @@ pub(super) fn warnings(case: &Case) -> Vec<String> {
         charges_far_apart(case),
         launches_lighter_tire(case),
         tilted_to_x(case),
+        leaning(case),
+        deep_push(case),
+        long_push(case),
     ];
-    single.into_iter().chain(pushes).flatten().collect()
+    single.into_iter().flatten().collect()
 }
 
 /// Warning that holes push from deeper than the program assumes: a deeper push is milder beside a tire, and nothing measures the depth.
@@ -91,9 +91,8 @@ fn launch_too_sure(case: &Case) -> Option<String> {
 /// Warning that no film was fitted, though the launch velocity is taken as surer than one filmed test tire leaves it. A value
 /// marked as assumed is confirmed as such, without this warning.
 fn launch_without_film(case: &Case) -> Option<String> {
-    let key = uncertainty::LAUNCH_COMMON_PERCENT.name;
     let percent = units::short(case.plan.uncertainty.launch_common_percent);
-    let is_marked = || assumed_values(&case.source.text).any(|value| value.key() == Some(key));
+    let is_marked = || is_assumed(&case.source.text, &uncertainty::LAUNCH_COMMON_PERCENT);
     let is_told = case.plan.takes_launch_as_filmed() && !case.plan.takes_launch_as_too_sure() && !is_marked();
     is_told.then(|| {
         say!(
@@ -166,17 +165,15 @@ fn launches_far_apart(case: &Case) -> Option<String> {
 
 /// Warning that holes of far different charges launch alike: the launch of one of them may have been left as it was.
 fn charges_far_apart(case: &Case) -> Option<String> {
-    let charge = |launch: &&Launch| launch.charge_kg;
-    let charged: Vec<&Launch> = case.plan.launches().filter(|launch| launch.charge_kg.is_some()).collect();
-    let by_charge = sorted_by(charged, |a, b| charge(a).partial_cmp(&charge(b)).unwrap_or(Ordering::Equal));
-    let (least, most) = (by_charge.first()?, by_charge.last()?);
-    let is_far = most.charge_kg? >= FAR_APART * least.charge_kg? && most.speed_m_s <= least.speed_m_s;
-    is_far.then(|| {
+    let charged = case.plan.launches().filter_map(|launch| Some((launch.charge_kg?, launch.speed_m_s)));
+    let by_charge = sorted_by(charged, |a, b| a.0.total_cmp(&b.0));
+    let ((least, speed), (most, fastest)) = (*by_charge.first()?, *by_charge.last()?);
+    (most >= FAR_APART * least && fastest <= speed).then(|| {
         say!(
             "a hole of {} kg launches at {} m/s, and one of {} kg no faster: was each filmed?",
-            least.charge_kg.unwrap_or_default(),
-            least.speed_m_s,
-            most.charge_kg.unwrap_or_default()
+            least,
+            speed,
+            most
         )
     })
 }

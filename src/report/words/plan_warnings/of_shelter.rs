@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::plan::Layout;
-use crate::plan::assumed::assumed_values;
+use crate::plan::assumed::is_assumed;
 use crate::plan::keys::{cable, uncertainty};
 use crate::report::language::{phrase, say};
 use crate::ropes::{Kind, catalogue};
@@ -89,25 +89,27 @@ const FIBRE_RANGE_PERCENT: [f64; 2] = [-20.0, 50.0];
 /// Greatest share of its strength that a splice leaves a rope of fibre [%] (FM 55-501).
 const BEST_SPLICE_PERCENT: f64 = 90.0;
 
+/// Whether the rope is one of fibre from the catalogue.
+fn is_fibre(case: &Case) -> bool {
+    let rope = case.plan.cable.rope.as_deref().and_then(|name| catalogue().find(name));
+    rope.is_some_and(|rope| rope.kind == Kind::FibreRope)
+}
+
 /// Warning that the ends of a rope of fibre hold more than the best splice.
 fn splice_too_good(case: &Case) -> Option<String> {
-    let cable = &case.plan.cable;
-    let rope = catalogue().find(cable.rope.as_deref()?)?;
-    let percent = cable.termination_percent;
+    let percent = case.plan.cable.termination_percent;
     // That ends hold all is asked about by itself.
-    let is_odd = rope.kind == Kind::FibreRope && percent > BEST_SPLICE_PERCENT && percent < 100.0;
+    let is_odd = percent > BEST_SPLICE_PERCENT && percent < 100.0 && is_fibre(case);
     is_odd.then(|| say!("the ends hold {percent} % of the rope, and a well made splice of fibre 70 to 90 %: were they pulled?", percent))
 }
 
 /// Warning that the stiffness of a rope of fibre is taken as known as well as that of steel: the range may be that of the rope before.
 fn fibre_too_sure(case: &Case) -> Option<String> {
-    let rope = catalogue().find(case.plan.cable.rope.as_deref()?)?;
     let [low, high] = case.plan.uncertainty.axial_stiffness_percent;
-    let key = uncertainty::AXIAL_STIFFNESS_PERCENT.name;
-    // A range that is marked as assumed has a box already.
-    let is_marked = || assumed_values(&case.source.text).any(|value| value.key() == Some(key));
     let is_sure = low > FIBRE_RANGE_PERCENT[0] || high < FIBRE_RANGE_PERCENT[1];
-    (rope.kind == Kind::FibreRope && is_sure && !is_marked()).then(|| {
+    // A range that is marked as assumed has a box already.
+    let is_marked = || is_assumed(&case.source.text, &uncertainty::AXIAL_STIFFNESS_PERCENT);
+    (is_sure && is_fibre(case) && !is_marked()).then(|| {
         say!(
             "a rope of fibre may be 20 % softer and 50 % stiffer than its maker says, the plan says {low} to {high} %: was it pulled?",
             low,
